@@ -32,10 +32,8 @@ def measure(
     sensors = ("--only", "sensors")
     runs = {
         "": (seconds,),
-        "simulated ": (seconds, *sensors, "--simulator"),
-        "simulated beside JPEG images, ": (frames_s, *sensors, "--simulator", "--cameras", "jpeg"),
-        "simulated beside raw images, ": (frames_s, *sensors, "--simulator", "--cameras", "raw"),
-        "beside cameras, ": (loss_s, *sensors, "--cameras", "jpeg"),
+        "simulated, ": (frames_s, *sensors, "--simulator", "--cameras"),
+        "beside cameras, ": (loss_s, *sensors, "--cameras"),
         "beside raw images, ": (loss_s, *sensors, "--cameras", "raw"),
     }
     repetitions = []

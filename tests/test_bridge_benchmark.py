@@ -1,51 +1,46 @@
 # SPDX-License-Identifier: MIT
-"""Tests the bridge's benchmark, on messages of its own and on a simulated robot."""
-import json
-import pathlib
-from typing import Any, Dict
-
+"""Runs the bridge's benchmark, briefly, on messages of its own and on a simulated robot: every figure is there."""
+import benchmark_bridge
 import pytest
 from bench.capture import Capture
 
-from ardee_common.ros_graph import RosGraph
-
-PROGRAM = pathlib.Path(__file__).resolve().parent / "bench" / "latency_benchmark"
-SENSORS = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud", "jpeg image", "raw image"}
-ROWS = {f"{name} message to datagram" for name in SENSORS | {"bare forwarder"}}
-
-
-def measured(graph: RosGraph, *arguments: str) -> Dict[str, Any]:
-    """Returns the benchmark's figures by row."""
-    output = graph.run(str(PROGRAM), "--json", *arguments, timeout_s=240.0)
-    found = json.loads(output.splitlines()[-1])
-    for figures in found.values():
-        # a message through a socket takes microseconds, and the whole measurement less than minutes
-        assert 0.005 < figures["p50_ms"] <= figures["p99_ms"] <= figures["max_ms"] < 240e3
-    return found
+SMALL = {"imu", "gps", "lidar", "battery", "encoder", "bare forwarder"}
+FRAMES = {"point_cloud", "jpeg image", "raw image"}
+# Streams of a kind, and their rate [Hz].
+PLANNED = {
+    "imu": (1, 100),
+    "gps": (1, 20),
+    "lidar": (1, 40),
+    "battery": (1, 100),
+    "encoder": (4, 100),
+    "jpeg image": (3, 30),
+    "raw image": (1, 10),
+    "point_cloud": (1, 10),
+}
 
 
-def test_everything_is_measured(graph: RosGraph) -> None:
-    found = measured(graph, "--duration-s", "1", "--cameras")
-    assert set(found) == ROWS | {"datagram to cmd_vel"}
-    # streams a row, and their rate [Hz]; of each, the last message may be due after the end
-    planned = {"imu": (1, 100), "gps": (1, 20), "lidar": (1, 40), "battery": (1, 100)}
-    planned.update({"encoder": (4, 100), "jpeg image": (3, 30), "raw image": (1, 10)})
-    planned["point_cloud"] = (1, 10)
-    for kind, (streams, rate_hz) in planned.items():
-        sent = found[f"{kind} message to datagram"]["sent"]
-        assert streams * (rate_hz - 3) <= sent <= streams * (rate_hz + 1), kind
-
-
-@pytest.mark.parametrize("only", ["sensors", "controls"])
-def test_one_half_is_left_out(graph: RosGraph, only: str) -> None:
-    kinds = measured(graph, "--duration-s", "0.5", "--only", only)
-    assert kinds and {"cmd_vel" in name for name in kinds} == {only == "controls"}
-
-
-def test_every_sensor_of_a_simulated_robot_is_timed_by_its_packets(graph: RosGraph) -> None:
+@pytest.fixture(scope="module")
+def is_captured() -> bool:
+    """Returns whether packets can be captured here, by which a simulated robot's messages are timed."""
     try:
         Capture("/anyone").close()
-    except OSError as error:
-        pytest.skip(f"packets cannot be captured here: {error}")
-    arguments = ("--simulator", "--only", "sensors", "--duration-s", "10", "--cameras")
-    assert set(measured(graph, *arguments)) == ROWS
+    except OSError:
+        return False
+    return True
+
+
+def test_everything_is_measured(is_captured: bool) -> None:
+    found = benchmark_bridge.measure(1.0, 1.0, 1, print)
+    kinds = {"": SMALL, "beside cameras, ": SMALL | FRAMES}
+    kinds["beside raw images, "] = kinds["beside cameras, "] - {"jpeg image"}
+    if is_captured:
+        kinds["simulated, "] = kinds["beside cameras, "]
+    rows = {f"{run}{name} message to datagram" for run, names in kinds.items() for name in names}
+    assert set(found) == rows | {"datagram to cmd_vel"}
+    for name, figures in found.items():
+        # a message through a socket takes microseconds, and the whole measurement less than minutes
+        assert 0.005 < figures["p50_ms"] <= figures["p99_ms"] <= figures["max_ms"] < 240e3, name
+    for kind, (streams, rate_hz) in PLANNED.items():
+        sent = found[f"beside cameras, {kind} message to datagram"]["sent"]
+        # of each stream, the last message may be due after the end
+        assert streams * (rate_hz - 3) <= sent <= streams * (rate_hz + 1), kind

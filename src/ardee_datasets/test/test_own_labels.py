@@ -11,6 +11,8 @@ import yaml
 from small_sets import generated, pixels, samples
 
 from ardee_common.errors import GeneratorError
+from ardee_datasets import show_dataset
+from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
 from ardee_models.lookup import find_model, search_path
 from ardee_models.plant.plant_metrics import METRICS_FILE
@@ -39,7 +41,9 @@ def label_soybean(folder: Path, label: int) -> None:
     file.write_text(json.dumps({**json.loads(file.read_text()), "label": label}))
 
 
-def test_a_named_label_is_a_category(tmp_path: Path) -> None:
+def test_a_named_label_is_a_category_of_a_set_with_its_model(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
     made = generated(tmp_path, f"{RECIPE}labels: {{soybean: {LABEL}}}\n")
     assert json.loads((made / "categories.json").read_text())[-1]["name"] == "soybean"
     coco = json.loads((made / "train" / "annotations.json").read_text())
@@ -53,6 +57,11 @@ def test_a_named_label_is_a_category(tmp_path: Path) -> None:
     classes = {line.split()[0] for path in made.glob("yolo/labels/train/*") for line in path.open()}
     assert {names[int(number)] for number in classes} == {"corn", "soybean"}
     assert "| soybean |" in (made / "README.md").read_text()
+    assert show_dataset.main([str(made)]) == 0
+    (tmp_path / "models" / "soybean" / "notes.txt").touch()
+    with pytest.raises(SystemExit):
+        main([str(tmp_path / "recipe.yaml"), "--output", str(made)])
+    assert "of another model soybean than there is now" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import pytest
 from small_sets import DRIVEN, MOVING, generated, samples
 
 from ardee_common.errors import GeneratorError
+from ardee_datasets.generate_dataset import main
 from ardee_datasets.robots import RobotKeys, read_robot
 from ardee_datasets.sample import LAYERS
 from ardee_world.row_truth import Pose, lane_of, read_field
@@ -79,3 +80,16 @@ def test_a_camera_that_cannot_be_read_is_refused(tmp_path: Path, key: str) -> No
     robot.write_text(f'<robot name="r"><gazebo reference="l">{sensor}</gazebo></robot>')
     with pytest.raises(GeneratorError, match="robot: found .*robot.urdf: .*'dark', expected"):
         read_robot(RobotKeys(robot=str(robot)), tmp_path)
+
+
+def test_no_picture_is_added_once_a_robot_has_changed(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    write_jackal(tmp_path)
+    recipe = (DRIVEN % "camera_front_sensor").replace("robot: tsv3_default", JACKAL)
+    made = generated(tmp_path, recipe.replace("frames: 3", "frames: 1"))
+    robot = tmp_path / "jackal.urdf.xacro"
+    robot.write_text(robot.read_text().replace("0.2 0 0.2", "0.2 0 0.3"))
+    with pytest.raises(SystemExit):
+        main([str(tmp_path / "recipe.yaml"), "--output", str(made)])
+    assert "of another robot terra than there is now" in capsys.readouterr().err

@@ -20,8 +20,8 @@ constexpr std::array kNames = {"trigger",         "Twist",           "number",  
 static_assert(kNames.size() == std::variant_size_v<Command>);
 
 [[noreturn]] void refuse(const py::object& value, const std::string& expected) {
-  throw py::type_error("found " + std::string(py::str(py::repr(value))).substr(0, 80) +
-                       ", expected " + expected);
+  const auto shown = py::repr(value)[py::slice(0, 80, 1)].cast<std::string>();
+  throw py::type_error("found " + shown + ", expected " + expected);
 }
 
 template <typename T>

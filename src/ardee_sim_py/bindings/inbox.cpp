@@ -3,6 +3,13 @@
 
 namespace ardee::python {
 
+void Inbox::demand(const std::string& topic, std::size_t keep) {
+  Box& box = boxes_[topic];
+  box.keep = keep;
+  box.is_open = true;
+  while (box.waiting.size() > keep) box.waiting.pop_front();
+}
+
 std::vector<Inbox::Item> Inbox::drain(const std::string& topic) {
   Box& box = boxes_.at(topic);
   const std::vector<Item> items(box.waiting.begin(), box.waiting.end());
@@ -14,6 +21,7 @@ void Inbox::clear() {
   for (auto& [topic, box] : boxes_) {
     box.waiting.clear();
     box.latest.reset();
+    box.dropped = 0;
   }
 }
 

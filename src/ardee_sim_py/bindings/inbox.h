@@ -18,10 +18,7 @@ class Inbox : public devices::ReadingSink {
   using Item = std::shared_ptr<const devices::Reading>;
 
   /// Keeps up to `keep` readings of a topic from now on.
-  void demand(const std::string& topic, std::size_t keep) {
-    boxes_[topic].keep = keep;
-    boxes_[topic].is_open = true;
-  }
+  void demand(const std::string& topic, std::size_t keep);
   /// Keeps what is there, and takes no more.
   void undemand(const std::string& topic) { boxes_.at(topic).is_open = false; }
   bool demands(const std::string& topic) const { return knows(topic) && boxes_.at(topic).is_open; }

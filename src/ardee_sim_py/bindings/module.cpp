@@ -10,6 +10,7 @@
 #include "ardee_sim/description/scenery.h"
 #include "descriptions.h"
 #include "simulation.h"
+#include "unlocked.h"
 
 namespace ardee::python {
 namespace {
@@ -104,7 +105,7 @@ void bind_world(py::module_& module) {
              const Names& packages) {
             return LoadedWorld::from_file(name, {models, media, packages});
           },
-          py::call_guard<py::gil_scoped_release>())
+          py::call_guard<Unlocked>())
       .def_static(
           "from_string",
           [](const std::string& text, const std::string& path, const Names& models,
@@ -112,13 +113,13 @@ void bind_world(py::module_& module) {
             return std::make_shared<LoadedWorld>(text, path,
                                                  LoadedWorld::Folders{models, media, packages});
           },
-          py::call_guard<py::gil_scoped_release>())
+          py::call_guard<Unlocked>())
       .def(
           "load_model",
           [](LoadedWorld& world, const std::string& text, const std::string& name) {
             return std::const_pointer_cast<LoadedModel>(world.load_model(text, name));
           },
-          py::call_guard<py::gil_scoped_release>())
+          py::call_guard<Unlocked>())
       .def("name", [](const LoadedWorld& w) { return w.world()->name; })
       .def("path", &LoadedWorld::path)
       .def("placements", &placements_of);
@@ -240,6 +241,7 @@ PYBIND11_MODULE(_core, module) {
       .def("gravity_m_s2", &BoundSimulation::gravity_m_s2);
   bind_state(bound);
   bind_readings(bound);
+  py::module_::import("atexit").attr("register")(py::cpp_function(&Unlocked::end));
 }
 
 }  // namespace ardee::python

@@ -3,6 +3,7 @@
 #include "ardee_sim/render/image_formation.h"
 #include "arrays.h"
 #include "simulation.h"
+#include "unlocked.h"
 
 namespace ardee::python {
 namespace {
@@ -20,7 +21,7 @@ py::dict BoundSimulation::picture(const render::Camera& camera, const render::Fr
   render::Frame frame;
   std::vector<std::uint8_t> rgb;
   {
-    const py::gil_scoped_release free;
+    const Unlocked unlocked;
     frame = use->take_picture(camera, parts);
     if (parts.light) rgb = render::form_image(frame, development, CounterRng(0));
   }
@@ -43,7 +44,7 @@ py::dict BoundSimulation::picture(const render::Camera& camera, const render::Fr
 std::vector<std::size_t> BoundSimulation::lone_pixels(const render::Camera& camera,
                                                       const std::vector<std::int32_t>& instances) {
   const Use use(*this);
-  const py::gil_scoped_release free;
+  const Unlocked unlocked;
   std::vector<std::uint32_t> entities;
   for (const std::int32_t each : instances)
     entities.push_back(static_cast<std::uint32_t>(each - 1));

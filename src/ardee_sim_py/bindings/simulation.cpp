@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "descriptions.h"
 #include "readings.h"
+#include "unlocked.h"
 
 namespace ardee::python {
 namespace {
@@ -122,10 +123,10 @@ void BoundSimulation::remove(const std::string& name) {
 void BoundSimulation::step(std::uint64_t count) {
   const Use use(*this);
   constexpr std::chrono::milliseconds kSignals{50};
-  const py::gil_scoped_release free;
+  const Unlocked unlocked;
   auto look_at = std::chrono::steady_clock::now() + kSignals;
   fault_.reset();
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < count && !Unlocked::has_to_return(); ++i) {
     if (wants_contacts_) use->want_contacts();
     use->step();
     for (const physics::Contact& each : use->contacts()) {

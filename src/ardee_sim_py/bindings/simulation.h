@@ -133,7 +133,8 @@ class BoundSimulation {
   Setting parameters_{"", Setting::Map()};  // as on ROS's parameter server
   std::optional<std::string> fault_;
   Inbox inbox_;
-  std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;  // by name
+  std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;   // by name
+  std::map<std::string, std::shared_ptr<const LoadedModel>> restored_;  // what a restore spawns
   std::atomic<bool> wants_contacts_{false};
   std::set<std::pair<std::string, std::string>> touches_;
   std::atomic<bool> in_use_{false};

@@ -2,14 +2,14 @@
 // The state of a simulation as bytes, for another process too.
 #include <pybind11/stl.h>
 
-#include <functional>
+#include <utility>
 
 #include "simulation.h"
 
 namespace ardee::python {
 namespace {
 
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 void serialize(StateArchive& archive, PhysicsParams& p) {
   archive(p.step_s, p.real_time_update_rate_hz, p.gravity_m_per_s2, p.solver, p.iterations, p.sor,
@@ -35,10 +35,8 @@ std::shared_ptr<const Model> BoundSimulation::model_of(const std::string& name,
     StateArchive::refuse();
   }
   const auto known = spawned_.find(name);
-  if (known == spawned_.end() || known->second->text != text) {
-    spawned_[name] = world_->load_model(text, file);
-  }
-  return spawned_.at(name)->model;
+  const bool is_known = known != spawned_.end() && known->second->text == text;
+  return (restored_[name] = is_known ? known->second : world_->load_model(text, file))->model;
 }
 
 void BoundSimulation::save_entity(StateArchive& archive, SimulationState::EntityState& entity) {
@@ -65,7 +63,7 @@ void BoundSimulation::save_entity(StateArchive& archive, SimulationState::Entity
 
 void BoundSimulation::serialize(StateArchive& archive, SimulationState& state) {
   std::uint32_t version = kVersion;
-  std::size_t world = std::hash<std::string>{}(world_->text());
+  std::size_t world = world_->fingerprint();
   std::uint64_t seed = seed_;
   const std::size_t own_world = world;
   archive(version, world, seed);
@@ -98,8 +96,10 @@ void BoundSimulation::restore(const std::string& bytes) {
   const Use use(*this);
   StateArchive archive(bytes);
   SimulationState state;
+  restored_.clear();
   serialize(archive, state);
   use->restore(state);
+  spawned_ = std::exchange(restored_, {});
   inbox_.clear();
   touches_.clear();
   apply_demands();

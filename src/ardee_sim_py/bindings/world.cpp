@@ -2,8 +2,11 @@
 #include "world.h"
 
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <utility>
+
+#include "ardee_sim/core/state_archive.h"
 
 namespace ardee::python {
 namespace {
@@ -20,6 +23,19 @@ std::string read_text(const std::string& path) {
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw Error({path, 0, ""}, "found no file that can be read");
   return text;
+}
+
+void write(StateArchive& archive, Instance instance) {
+  std::string model = instance.model->name;
+  archive(instance.name, model, instance.pose, instance.scale, instance.label);
+  for (const Instance& each : instance.model->instances) write(archive, each);
+}
+
+std::size_t fingerprint_of(std::string text, const World& world) {
+  StateArchive archive;
+  archive(text);
+  for (const Instance& each : world.models) write(archive, each);
+  return std::hash<std::string>{}(archive.bytes());
 }
 
 }  // namespace
@@ -39,7 +55,8 @@ LoadedWorld::LoadedWorld(std::string text, const std::string& path, const Folder
                 said->push_back({level, line});
               })),
       world_(std::make_shared<const World>(loader_.load_world_text(text_, path))),
-      world_log_(std::exchange(*said_, {})) {}
+      world_log_(std::exchange(*said_, {})),
+      fingerprint_(fingerprint_of(text_, *world_)) {}
 
 std::shared_ptr<const LoadedModel> LoadedWorld::load_model(const std::string& text,
                                                            const std::string& name) {

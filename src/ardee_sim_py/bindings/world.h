@@ -44,6 +44,8 @@ class LoadedWorld {
   const ResourceLocator& locator() const { return locator_; }
   const std::string& text() const { return text_; }
   const std::string& path() const { return path_; }
+  /// Tells worlds apart: by the text, and by where which models stand, as included files say.
+  std::size_t fingerprint() const { return fingerprint_; }
   /// Messages of reading the world.
   const std::vector<LogLine>& log() const { return world_log_; }
   std::shared_ptr<const LoadedModel> load_model(const std::string& text, const std::string& name);
@@ -57,6 +59,7 @@ class LoadedWorld {
   Loader loader_;
   std::shared_ptr<const World> world_;
   std::vector<LogLine> world_log_;
+  std::size_t fingerprint_;
 };
 
 }  // namespace ardee::python

@@ -5,6 +5,7 @@ import pathlib
 from typing import Callable, Dict, Iterator, List, Tuple, Type
 
 import ardee_sim
+import numpy as np
 import pytest
 from ardee_sim import ArdeeError, Twist
 
@@ -80,7 +81,7 @@ def test_parameters_are_merged_below_a_namespace(sim: ardee_sim.Simulation) -> N
     sim.set_parameters(
         {JOINTS: {"type": "joint_state_controller/JointStateController"}}, namespace="a/b"
     )
-    sim.set_parameters({"a": {"b": {JOINTS: {"publish_rate": 20}}}})
+    sim.set_parameters({"a": {"b": {JOINTS: {"publish_rate": np.int64(20)}}}})
     urdf = ardee_sim.robot(ROBOTS / "jackal.urdf.xacro").replace(
         "<robotNamespace>/<", "<robotNamespace>/a/b<"
     )

@@ -74,3 +74,31 @@ def test_a_world_is_found_by_its_name(make: Make) -> None:
     named, given = make(world="corn.world"), make(world=path)
     assert named.world.path == given.world.path
     assert np.array_equal(named.reset(seed=1)[0], given.reset(seed=1)[0])
+
+
+class Halved(gymnasium.ActionWrapper):
+    """Drives by half of the action."""
+
+    def action(self, action: Any) -> Any:
+        return np.asarray(action, np.float32) / 2
+
+
+def test_what_a_wrapper_makes_of_an_action_is_recorded() -> None:
+    env = RecordEpisode(Halved(gymnasium.make("ardee/RowFollow-v0", seed_field=False)))
+    env.reset(seed=5)
+    driven = [env.step(np.array([0.9, 0.4], np.float32))[0] for _ in range(4)]
+    assert env.episode.actions[0] == np.array([0.45, 0.2], np.float32).tolist()
+    again = env.episode.make()
+    _, *results = env.episode.play(again)
+    for each in (env, again):
+        each.close()
+    assert [each.tobytes() for each in driven] == [result[0].tobytes() for result in results]
+
+
+@pytest.mark.parametrize(
+    "name, said",
+    [("this:Foo-v0", "an id without a module"), ("CartPole-v1", "expected one of ardee's")],
+)
+def test_an_episode_of_another_environment_is_refused(name: str, said: str) -> None:
+    with pytest.raises(ArdeeError, match=f"found environment '{name}', .*{said}"):
+        Episode(name, {}, {}, []).make()

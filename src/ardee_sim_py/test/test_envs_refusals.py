@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Tests what environments refuse, with what was expected, and that they go on afterwards."""
+import os
+import subprocess
+import sys
+from pathlib import Path
 from typing import Any, Dict
 
+import gymnasium
 import numpy as np
 import pytest
 from ardee_sim import ArdeeError
@@ -104,3 +109,28 @@ def test_an_action_of_words_is_refused(make: Make) -> None:
 
 def test_a_long_control_period_has_one_picture_a_second(make: Make) -> None:
     assert make(control_period_s=2.0).metadata["render_fps"] == 1
+
+
+@pytest.mark.filterwarnings("ignore:.*ERROR")  # gymnasium's own report of it
+def test_a_worker_s_error_is_the_environment_s() -> None:
+    envs = gymnasium.make_vec("ardee/RowFollow-v0", num_envs=1, seed_field=False)
+    with pytest.raises(ArdeeError, match="options: found 'noise_sed', expected one of"):
+        envs.reset(options={"noise_sed": 1})
+    envs.close(terminate=True)
+
+
+OPEN_AT_THE_END = """
+import gymnasium, ardee_sim.envs
+if __name__ == "__main__":
+    envs = gymnasium.make_vec("ardee/RowFollow-v0", num_envs=2, seed_field=False)
+    envs.reset(seed=1)
+"""
+
+
+def test_the_end_of_a_program_deletes_the_fields_of_its_workers(tmp_path: Path) -> None:
+    (tmp_path / "scratch").mkdir()
+    program = tmp_path / "program.py"
+    program.write_text(OPEN_AT_THE_END)
+    env = {**os.environ, "TMPDIR": str(tmp_path / "scratch")}
+    subprocess.run([sys.executable, str(program)], env=env, check=True)
+    assert list((tmp_path / "scratch").iterdir()) == []

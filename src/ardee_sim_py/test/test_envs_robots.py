@@ -84,3 +84,25 @@ def test_a_robot_that_could_not_drive_is_refused(
     with pytest.raises(ArdeeError) as error:
         make(topics=("ardee/eye",), **{**jackal(tmp_path), **wrong})
     assert said in str(error.value)
+
+
+def test_a_robot_drives_on_through_a_long_control_period(make: Make) -> None:
+    """A TerraSentia stops 0.5 s after a command, but for the next one."""
+    env = make(control_period_s=1.0, v_max_m_s=0.8)
+    env.reset(seed=2)
+    env.step(np.array([0.5, 0.0], np.float32))
+    first = env.pose()
+    env.step(np.array([0.5, 0.0], np.float32))
+    second = env.pose()
+    way_m = math.hypot(second.x_m - first.x_m, second.y_m - first.y_m)
+    assert way_m == pytest.approx(0.4, abs=0.02)
+
+
+def test_readings_that_somebody_else_keeps_stay(make: Make) -> None:
+    env = make()
+    env.reset(seed=2)
+    env.simulation.demand("ardee/hokuyo", keep=50)
+    env.simulation.drain("ardee/hokuyo")
+    for _ in range(5):
+        env.step(np.array([0.5, 0.0], np.float32))
+    assert len(env.simulation.drain("ardee/hokuyo")) == 20  # of 0.5 s at 40 Hz

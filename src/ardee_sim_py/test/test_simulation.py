@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests simulations: motion, readings, snapshots, threads, refusals."""
+import pathlib
 import signal
 import subprocess
 import sys
@@ -127,6 +128,11 @@ def test_drain_keeps_the_last_ones_and_counts_the_lost(sim: ardee_sim.Simulation
     assert stamps == [775_000_000 + 25_000_000 * k for k in range(10)]
     assert sim.dropped("ardee/hokuyo") == 30
     assert sim.drain("ardee/hokuyo") == []
+    sim.step(20)
+    sim.demand("ardee/hokuyo")
+    assert [reading.stamp_ns for reading in sim.drain("ardee/hokuyo")] == [1_100_000_000]
+    sim.reset()
+    assert sim.dropped("ardee/hokuyo") == 0
 
 
 def test_a_seed_repeats_all_bytes_and_another_does_not(
@@ -246,6 +252,56 @@ def test_a_snapshot_of_another_seed_is_refused(
     with placed(corn, terrasentia, seed=2) as other:
         with pytest.raises(ardee_sim.ArdeeError, match="another world, seed or version"):
             other.restore(sim.snapshot())
+
+
+FIELD = """<sdf version='1.6'><model name='f'><static>true</static>
+<include><uri>model://corn_variant_1</uri><pose>%s 0 0 0 0 0</pose></include></model></sdf>"""
+
+
+def test_a_snapshot_of_another_field_is_refused(tmp_path: pathlib.Path) -> None:
+    """Though both worlds' own files are equal."""
+    folder = tmp_path / "field"
+    folder.mkdir()
+    (folder / "model.config").write_text("<model><sdf version='1.6'>model.sdf</sdf></model>")
+    text = "<sdf version='1.6'><world name='w'><include><uri>model://field</uri></include></world></sdf>"
+    snapshots = []
+    for x_m in (1, 2, 1):
+        (folder / "model.sdf").write_text(FIELD % x_m)
+        with ardee_sim.Simulation(
+            ardee_sim.World.from_string(text, model_paths=[tmp_path])
+        ) as made:
+            snapshots.append(made.snapshot())
+            if x_m == 2:
+                with pytest.raises(ardee_sim.ArdeeError, match="snapshot of another world"):
+                    made.restore(snapshots[0])
+    assert snapshots[0] == snapshots[2]
+
+
+def test_a_model_in_another_s_place_is_gone_after_a_restore() -> None:
+    cube = BALL.replace("<sphere><radius>0.1</radius></sphere>", "<box><size>1 1 1</size></box>")
+    world = GROUND.replace("</world>", cube[cube.index("<model") : -len("</sdf>")] + "</world>")
+    with ardee_sim.Simulation(ardee_sim.World.from_string(world)) as sim:
+        first = sim.snapshot()
+        sim.remove("ball")
+        sim.spawn("ball", BALL, xyz_m=(0, 0, 5))
+        sim.restore(first)
+        assert sim.snapshot().data == first.data
+
+
+STEPS_ON = """
+import threading, time, ardee_sim
+sim = ardee_sim.Simulation(ardee_sim.World.from_file("empty.world"))
+def run():
+    while True:
+        sim.step(%d)
+threading.Thread(target=run, daemon=True).start()
+time.sleep(0.3)
+"""
+
+
+@pytest.mark.parametrize("steps", [1, 10**9])
+def test_a_program_ends_while_a_thread_of_its_steps(steps: int) -> None:
+    assert subprocess.run([sys.executable, "-c", STEPS_ON % steps], timeout=60).returncode == 0
 
 
 def test_threads_and_interleaving_change_no_byte(corn: ardee_sim.World, terrasentia: str) -> None:

@@ -10,6 +10,7 @@ import viser
 from ardee_sim.envs import Episode
 from ardee_sim.view import Viewer, viewer
 from ardee_sim.view.glb import write_glb
+from ardee_sim.view.panel import NO_CAMERA
 from ardee_sim.view.server import is_own_page
 from ardee_sim.view.shapes import Piece
 from PIL import Image
@@ -86,6 +87,19 @@ def test_a_viewer_of_a_closed_simulation_shows_another_one_or_ends(
         shown.update()
     shown.close()
     assert not is_served(shown.url)
+
+
+def test_a_simulation_without_the_chosen_camera_is_shown_without_one(
+    yard: ardee_sim.Simulation, shown: Viewer
+) -> None:
+    shown.wanted.camera = "/ardee/camera/front/image_raw"
+    shown.attach(yard)
+    with ardee_sim.Simulation(yard.world) as other:
+        other.spawn("robot", ardee_sim.robot("tsv1_default", ns="robot2"), xyz_m=(0, 0, 0.175))
+        shown.attach(other)
+        shown.update()
+        assert shown.wanted.camera == NO_CAMERA
+    shown.close()
 
 
 def test_a_removed_robot_is_said_once(yard: ardee_sim.Simulation, shown: Viewer) -> None:

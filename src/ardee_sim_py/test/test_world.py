@@ -70,3 +70,52 @@ def test_a_robot_that_is_not_there_or_broken_says_so(tmp_path: pathlib.Path) -> 
     broken.write_text('<robot xmlns:xacro="http://ros.org/wiki/xacro" name="${1/0}"/>')
     with pytest.raises(ardee_sim.ArdeeError, match="division by zero"):
         ardee_sim.robot(broken)
+
+
+def a_field(folder: pathlib.Path, truth: str) -> ardee_sim.World:
+    """Returns a world with one plant of a field of this truth.csv."""
+    field = folder / "field"
+    field.mkdir(exist_ok=True)
+    (field / "model.config").write_text("<model><sdf version='1.6'>model.sdf</sdf></model>")
+    (field / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='f'><static>true</static><include><uri>model://corn_variant_1</uri>"
+        "<name>plant_5</name><ardee:label>1</ardee:label></include></model></sdf>"
+    )
+    (field / "truth.csv").write_text(truth)
+    text = "<sdf version='1.6'><world name='w'><include><uri>model://field</uri></include></world></sdf>"
+    return ardee_sim.World.from_string(text, model_paths=[folder])
+
+
+def test_plants_of_a_world_stay_as_they_were(tmp_path: pathlib.Path) -> None:
+    """Also those of a table with the mark that Excel writes first."""
+    head = "\ufeffid,plot,row,place,stage,height_m\n"
+    world = a_field(tmp_path, f"{head}5,0,1,2,V6,0.5\n")
+    (plant,) = world.plants()
+    assert (plant.id, plant.row, plant.stage, plant.height_m) == (5, 1, "V6", 0.5)
+    a_field(tmp_path, f"{head}5,0,1,2,R2,2.5\n")
+    assert world.plants() == [plant]
+
+
+@pytest.mark.parametrize(
+    "truth, said",
+    [
+        ("plot,row\n0,1\n", "truth.csv:2: found 'id', expected whole numbers in id, plot"),
+        ("id,plot,row,place,stage,height_m\n5,0.0,1,2,V6,0.5\n", "truth.csv:2: found .*'0.0'"),
+        ("id,plot,row,place,stage,height_m\n5,0\n", "truth.csv:2: found"),
+    ],
+)
+def test_a_truth_that_cannot_be_read_says_where(
+    tmp_path: pathlib.Path, truth: str, said: str
+) -> None:
+    with pytest.raises(ardee_sim.ArdeeError, match=said) as caught:
+        a_field(tmp_path, truth).plants()
+    assert caught.value.line == 2
+
+
+def test_a_robot_is_expanded_in_any_folder(
+    tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "xacro.py").write_text("raise SystemExit('mine')")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    assert "TSv1" in ardee_sim.robot("tsv1_default")

@@ -19,7 +19,7 @@ from ardee_datasets.sample import LAYERS, ORGANS, json_bytes
 _POSE = ("x_m", "y_m", "z_m")
 # Files of a data set; what others put there, such as ultralytics its *.cache, is not in the manifest
 _WRITTEN = (
-    *("dataset.yaml", "README.md", "categories.json", "organs.json"),
+    *("dataset.yaml", "inputs.json", "README.md", "categories.json", "organs.json"),
     *("truth/*/truth.csv", "truth/*/truth.json", "truth/*/clutter.csv"),
     *("*/annotations.json", "*/poses.csv", "*/samples/*.json"),
     *(f"*/{layer}/*.{ending}" for layer, ending in LAYERS.items()),

@@ -23,8 +23,8 @@ from ardee_world.request import all_fields, configure
 WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of plots
 FIELD = "field"  # name of the field's model in the simulation
 _OF_THE_RECIPE = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
-_IMAGES = tuple(f"{kind}_image" for kind in KINDS)  # paths relative to the recipe
-_POOLS = ("models", *(f"{kind}_models" for kind in KINDS))
+IMAGES = tuple(f"{kind}_image" for kind in KINDS)  # paths relative to the recipe
+POOLS = ("models", *(f"{kind}_models" for kind in KINDS))
 Values = Dict[str, Any]
 Ranges = Dict[str, Tuple[float, float]]
 
@@ -63,7 +63,7 @@ def _checked(given: Mapping, key: str, value: Any) -> Any:
     one = Mapping(given.place)
     one.line[key], one[key] = given.line[key], value
     checked = value_of(*_option(given, key), one, key)
-    if key in _IMAGES and checked is not None:
+    if key in IMAGES and checked is not None:
         return str(Path(given.place).resolve().parent / Path(checked).expanduser())
     return checked
 
@@ -84,7 +84,7 @@ def _check_models(given: Mapping, options: Values, labels: Dict[str, int]) -> No
     """Raises GeneratorError for a model that is not there, of another kind, or with a label that has no name."""
     named = {*(category["id"] for category in CATEGORIES), *labels.values()}
     folders = search_path([Path(folder) for folder in packages.model_folders()])
-    for key in (key for key in _POOLS if key in options):
+    for key in (key for key in POOLS if key in options):
         if not options[key]:
             raise given.error(key, f"{key}: found none, expected names of models")
         for name in options[key]:

@@ -2,6 +2,7 @@
 """The command `generate_dataset`: labelled pictures of the fields of a recipe."""
 
 import argparse
+import json
 import os
 import socket
 import tempfile
@@ -17,10 +18,11 @@ from ardee_common.process import end_if_told
 from ardee_datasets.assemble import assemble, yolo_lack
 from ardee_datasets.camera import CameraKeys
 from ardee_datasets.drive import Drive
+from ardee_datasets.inputs import digests
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot, scenes, shots
 from ardee_datasets.recipe import Recipe, read_recipe
-from ardee_datasets.sample import take
+from ardee_datasets.sample import json_bytes, take
 from ardee_datasets.scenery import CameraPose, Scenery
 
 _TRUTH = ("truth.csv", "truth.json", "clutter.csv")
@@ -116,16 +118,26 @@ def _made(
     yield from worked_off(make_scene, inputs, args.scheduler, workers)
 
 
-def _check_same(folder: Path, recipe_file: Path) -> None:
+def _check_same(folder: Path, recipe_file: Path, recipe: Recipe) -> None:
     """Refuses a folder that holds another data set, or something else."""
-    kept = folder / "dataset.yaml"
-    text = recipe_file.read_bytes()
-    if not [each for each in folder.iterdir() if each != kept]:
-        write_file(kept, text)  # new, or of a recipe that was refused
-    elif not kept.is_file():
-        raise GeneratorError(f"--output: found files in {folder}, expected an empty folder")
-    elif kept.read_bytes() != text:
+    given = {"dataset.yaml": recipe_file.read_bytes(), "inputs.json": json_bytes(digests(recipe))}
+    if {path.name for path in folder.iterdir()} <= set(given):
+        for name, content in given.items():
+            write_file(folder / name, content)  # new, or of a recipe that was refused
+        return
+    for name in given:
+        if not (folder / name).is_file():
+            found = f"found files in {folder} and no {name}"
+            raise GeneratorError(f"--output: {found}, expected an empty folder")
+    if (folder / "dataset.yaml").read_bytes() != given["dataset.yaml"]:
         raise GeneratorError(f"--output: found {folder} of another recipe, expected {recipe_file}")
+    before, now = (
+        json.loads(text) for text in ((folder / "inputs.json").read_bytes(), given["inputs.json"])
+    )
+    changed = sorted(name for name in {**before, **now} if before.get(name) != now.get(name))
+    if changed:
+        found = f"found {folder} of another {changed[0]} than there is now"
+        raise GeneratorError(f"--output: {found}, expected a new folder")
 
 
 def plan_text(recipe: Recipe) -> str:
@@ -147,7 +159,7 @@ def generate(args: argparse.Namespace) -> Optional[str]:
     if args.output is None:
         raise GeneratorError("found no --output, expected a folder for the data set")
     with output_folder(args.output) as folder, locked(folder):
-        _check_same(folder, args.recipe)
+        _check_same(folder, args.recipe, recipe)
         lack = yolo_lack({keys.split for keys in recipe.fields.values()})
         if lack:
             say("generate_dataset", f"warning: {lack}")

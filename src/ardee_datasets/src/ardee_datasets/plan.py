@@ -2,7 +2,7 @@
 """The plan of a data set: its scenes with their seeds, and the pictures of each."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Optional
+from typing import Any, Dict, Iterator, List, Optional, Set
 
 from ardee_sim import Daylight
 
@@ -43,11 +43,15 @@ class Shot:
 
 def scenes(recipe: Recipe) -> List[Scene]:
     """Returns all scenes, in the order of their names."""
-    made = []
+    made: List[Scene] = []
+    seeds: Set[int] = set()
     for name, keys in sorted(recipe.fields.items()):
         for number in range(keys.fields):
             scene = scene_name(name, number)
             seed = field_seed(recipe.seed, scene)
+            while seed in seeds:  # of 32 bits: no two fields of a large set are the same
+                seed = field_seed(seed, scene)
+            seeds.add(seed)
             made.append(Scene(scene, keys, seed, recipe.light))
     return made
 

@@ -2,6 +2,8 @@
 """Robots of a recipe: their cameras, as their descriptions say."""
 
 import dataclasses
+import hashlib
+import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,6 +71,12 @@ class Robot:
     parameters: Dict[str, Any]
     cameras: Dict[str, MountedCamera]
 
+    def digest(self) -> str:
+        """Returns the sha256 of description and parameters; comments, in which xacro tells its file's place, are left out."""
+        urdf = ElementTree.canonicalize(self.urdf)
+        parameters = json.dumps(self.parameters, sort_keys=True)
+        return hashlib.sha256(f"{urdf}\0{parameters}".encode()).hexdigest()
+
 
 def check_cameras(names: Sequence[str], known: Collection[str]) -> None:
     """Raises GeneratorError for a camera's name that is not known, or given twice."""
@@ -99,7 +107,13 @@ def read_robot(keys: RobotKeys, folder: Path) -> Robot:
     parameters = {}
     if keys.parameters is not None:
         parameters = read_yaml_lines(folder / Path(keys.parameters).expanduser())
+        json.dumps(parameters, default=_refuse)
     return Robot(keys, urdf, parameters, {name: found[name] for name in wanted})
+
+
+def _refuse(value: Any) -> Any:
+    expected = "numbers, truths, texts, and lists and groups of them"
+    raise GeneratorError(f"parameters: found {value}, expected {expected}")
 
 
 def cameras_of(urdf: str) -> Dict[str, MountedCamera]:

@@ -127,6 +127,7 @@ class Scenery:
             middle = a.at(a.length_m / 2)
             seen = b.project(middle.x_m, middle.y_m)
             is_beside = abs(math.sin(seen.direction_rad - middle.yaw_rad)) < 0.5
+            is_beside = is_beside and 0.0 <= seen.along_m <= b.length_m  # not in the plot behind
             if is_beside and abs(seen.left_m) < WIDEST_LANE_M:
                 lanes.append((left, right))
         if not lanes:

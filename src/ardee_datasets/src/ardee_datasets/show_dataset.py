@@ -22,10 +22,11 @@ _ON_SHEET = 6  # samples
 _TILES = 4  # of a sample
 _LINE_PX = 14  # of text
 _BOX = {1: "lime", 2: "orange", 3: "violet", 10: "red", 11: "white", 12: "cyan"}
+_OWN = "gold"  # labels of the recipe's own
 _ROW, _VANISHING, _FOOT, _HIDDEN = "yellow", "magenta", "red", "deepskyblue"
 _LEGEND = (
-    "boxes: corn lime, sorghum orange, tobacco violet, weed red, stone white, litter cyan;  rows yellow, vanishing "
-    "point magenta;  feet red, hidden ones blue;  masks: a colour each"
+    "boxes: corn lime, sorghum orange, tobacco violet, weed red, stone white, litter cyan, own labels gold;  "
+    "rows yellow, vanishing point magenta;  feet red, hidden ones blue;  masks: a colour each"
     "\norgans: stalk red, leaf green, ear yellow, tassel orange, panicle magenta, flower white, root blue;  "
     "depth: red 0.1 m to blue 20 m, black nothing"
 )
@@ -52,7 +53,9 @@ def _over_picture(sample: Dict[str, Any], rgb: np.ndarray) -> Image.Image:
     draw = ImageDraw.Draw(picture)
     for one in sample["annotations"]:
         x, y, width, height = one["bbox"]
-        draw.rectangle((x, y, x + width - 1, y + height - 1), outline=_BOX[one["category_id"]])
+        draw.rectangle(
+            (x, y, x + width - 1, y + height - 1), outline=_BOX.get(one["category_id"], _OWN)
+        )
     for row in sample["rows"]:
         draw.line([tuple(point) for point in row["line_px"]], fill=_ROW, width=2)
     radius = max(sample["width_px"] // 130, 1)

@@ -17,7 +17,8 @@ class ArdeeError(ValueError):
     element : name of the XML element, or None
     """
 
-    def __init__(self, message: str) -> None:
+    def __init__(self, message: object) -> None:
+        message = str(message)  # gymnasium makes the error of a worker anew from the error
         super().__init__(message)
         place = _PLACE.match(message)
         self.file: Optional[str] = place["file"] if place else None

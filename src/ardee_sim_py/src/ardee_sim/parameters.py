@@ -4,6 +4,7 @@
 from pathlib import Path
 from typing import Any, Dict, Mapping, Union
 
+import numpy as np
 from ardee_sim import checks
 from ardee_sim.errors import ArdeeError
 
@@ -20,6 +21,8 @@ def _grouped(tree: Mapping[str, Any], level: int = 0) -> Dict[str, Any]:
     """Returns parameters in which a name such as a/b stands for b in the group a, as for `rosparam load`."""
     made: Dict[str, Any] = {}
     for name, value in tree.items():
+        if isinstance(value, (np.generic, np.ndarray)):
+            value = value.tolist()
         if isinstance(value, Mapping) and level < _MOST_LEVELS:
             value = _grouped(value, level + 1)
         first, *others = [part for part in str(name).split("/") if part] or [name]

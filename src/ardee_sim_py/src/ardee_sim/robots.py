@@ -46,9 +46,11 @@ def _text(value: Union[str, float, bool]) -> str:
 
 
 def _expand(path: Path, arguments: List[str]) -> str:
-    # xacro keeps its state in globals of its module: each file has a process of its own
-    command = [sys.executable, "-m", "ardee_sim._expand_xacro", str(path), *arguments]
-    done = subprocess.run(command, capture_output=True, text=True)
+    # xacro keeps its state in globals of its module: each file has a process of its own, which imports what this one
+    # does, and nothing from the current folder
+    command = [sys.executable, "-P", "-m", "ardee_sim._expand_xacro", str(path), *arguments]
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    done = subprocess.run(command, capture_output=True, text=True, env=env)
     if done.returncode != 0:
         raise ArdeeError(done.stderr.strip() or f"{path}: xacro failed")
     return done.stdout

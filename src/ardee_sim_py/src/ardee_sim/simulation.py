@@ -33,7 +33,8 @@ class Simulation:
     Simulations of one World share what rays meet and does not change, as long as one of them is open: beside the first
     in the shipped corn, each further one takes a ninth of the time to the first scan, and of the memory of a picture.
 
-    An argument of a wrong type raises TypeError, one of a wrong value ArdeeError; the simulation stays as it was.
+    An argument of a wrong type raises TypeError, one of a wrong value, or no vector of numbers, ArdeeError; the
+    simulation stays as it was.
 
     seed : of all noise
     ray_threads : that measure together, 0: as many as the computer has cores
@@ -80,7 +81,7 @@ class Simulation:
     ) -> Entity:
         """Adds a model and returns it.
 
-        model : URDF or SDF text, as robot() returns it, or the path of such a file
+        model : URDF or SDF text, as robot() returns it, or the pathlib.Path of such a file
         xyz_m, rpy_rad : pose in the world; roll, pitch, yaw about the fixed axes
         namespace : of the robot's topics, if its URDF names none; of shipped robots: robot("tsv1_default", ns="robot2")
         joint_positions : initial ones, rad or m, by the joint's name; others as described
@@ -207,7 +208,10 @@ class Simulation:
         self._core.restore(data)
 
     def state(self, name: str, *, relative_to: str = "world") -> State:
-        """Returns the state of "model" or "model::link", in the axes of another such name or of the world."""
+        """Returns the state of "model" or "model::link", as seen from another such name, which may move, or the world.
+
+        A model's state relative to itself is at rest; its velocity in its own axes is that of the world, turned.
+        """
         checks.text(name, "name")
         return State(*self._core.state(name, checks.text(relative_to, "relative_to")))
 
@@ -221,7 +225,10 @@ class Simulation:
         w_rad_s: Vector = (0, 0, 0),
         relative_to: str = "world",
     ) -> None:
-        """Moves a model; a part of the pose that is not given stays."""
+        """Moves a model; a part of the pose that is not given stays.
+
+        relative_to : in whose axes pose and velocity are; its own velocity is not added, as in Gazebo
+        """
         present = self.state(name, relative_to=relative_to)
         xyz_m = present.xyz_m if xyz_m is None else xyz_m
         quat_xyzw = present.quat_xyzw if quat_xyzw is None else quat_xyzw
@@ -237,6 +244,7 @@ class Simulation:
     def command(self, topic: str, value: Command) -> None:
         """Commands a device from the next step on, as a message on its topic does.
 
+        A TerraSentia stops 0.5 s after its last command (xacro argument command_timeout, 0: never).
         Raises KeyError for an unknown topic, with the nearest ones; TypeError for a value of another kind;
         ArdeeError for a value that the device refuses.
         """

@@ -17,6 +17,7 @@ from ardee_common.errors import GeneratorError
 PathLike = Union[str, "os.PathLike[str]"]
 _MOST_MODELS = 16  # that stay loaded
 _SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
+_NUMBERS = ("id", "plot", "row", "place")  # columns of truth.csv
 
 
 def read_text(file: PathLike) -> str:
@@ -68,21 +69,30 @@ class Placement:
     visuals: Dict[int, str]
 
 
-def _truth_beside(file: str) -> Dict[int, Dict[str, str]]:
+def _truth_beside(file: str) -> Dict[int, Dict[str, Any]]:
+    """Returns what truth.csv beside a field's file says of its plants, by id."""
     path = Path(file).parent / "truth.csv"
     if not path.is_file():
         return {}
-    with path.open(newline="") as lines:
-        return {int(row["id"]): row for row in csv.DictReader(lines)}
+    found = {}
+    with path.open(newline="", encoding="utf-8-sig") as text:
+        lines = csv.DictReader(text)
+        try:
+            for row in lines:
+                known: Dict[str, Any] = {key: int(row[key]) for key in _NUMBERS}
+                known.update(stage=row["stage"], height_m=float(row["height_m"]))
+                found[known["id"]] = known
+        except (KeyError, ValueError, TypeError, csv.Error) as error:
+            line = f"{path}:{max(lines.line_num, 1)}"
+            expected = f"whole numbers in {', '.join(_NUMBERS)}, a stage, a height_m"
+            raise ArdeeError(f"{line}: found {error}, expected {expected}") from None
+    return found
 
 
-def _plant(placement: Tuple[Any, ...], truth: Dict[int, Dict[str, str]]) -> Plant:
+def _plant(placement: Tuple[Any, ...], truth: Dict[int, Dict[str, Any]]) -> Plant:
     name, _, xyz_m, quat_xyzw, scale, label, instance, _ = placement
     number = name.rpartition("plant_")[2]
-    row = truth.get(int(number), {}) if number.isdigit() else {}
-    known: Dict[str, Any] = {key: int(row[key]) for key in ("id", "plot", "row", "place") if row}
-    if row:
-        known.update(stage=row["stage"], height_m=float(row["height_m"]))
+    known = truth.get(int(number), {}) if number.isdigit() else {}
     return Plant(name, _SPECIES[label], xyz_m, quat_xyzw, scale, instance, **known)
 
 
@@ -96,6 +106,7 @@ class World:
     def __init__(self, core: "_core.World") -> None:
         self._core = core
         self._models: Dict[Tuple[str, str], "_core.Model"] = {}
+        self._plants: Optional[List[Plant]] = None
 
     def load_model(self, text: str, file: str) -> "_core.Model":
         """Returns a model for Simulation.spawn(); the last ones stay, for a robot that is spawned again and again."""
@@ -169,13 +180,18 @@ class World:
         return [Placement(made[0], *made[5:]) for made in self._core.placements()]
 
     def plants(self) -> List[Plant]:
-        """Returns all crop plants, in the order of their instance numbers."""
-        truths: Dict[str, Dict[int, Dict[str, str]]] = {}
-        found = []
-        for placement in self._core.placements():
-            file, label = placement[1], placement[5]
-            if label in _SPECIES:
-                if file not in truths:
-                    truths[file] = _truth_beside(file)
-                found.append(_plant(placement, truths[file]))
-        return found
+        """Returns all crop plants, in the order of their instance numbers; truth.csv is read at the first call.
+
+        Raises ArdeeError with file and line if it is no truth.csv.
+        """
+        if self._plants is None:
+            truths: Dict[str, Dict[int, Dict[str, Any]]] = {}
+            found = []
+            for placement in self._core.placements():
+                file, label = placement[1], placement[5]
+                if label in _SPECIES:
+                    if file not in truths:
+                        truths[file] = _truth_beside(file)
+                    found.append(_plant(placement, truths[file]))
+            self._plants = found
+        return list(self._plants)

@@ -164,7 +164,11 @@ def _address(text: str, least_port: int = 0) -> Address:
 
 
 def _peer(text: str) -> Address:
-    return _address(text, least_port=1)
+    host, port = _address(text, least_port=1)
+    if ipaddress.ip_address(host).is_unspecified:  # what it sends would come from another address
+        expected = "the address of a computer, such as 127.0.0.1"
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected {expected}")
+    return host, port
 
 
 def _own_address(*others: Address) -> Address:

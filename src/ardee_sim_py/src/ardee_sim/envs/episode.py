@@ -80,13 +80,20 @@ class Episode:
         return cls(**given)
 
     def make(self) -> gymnasium.Env:
-        """Makes the environment."""
+        """Makes the environment. Raises ArdeeError if it is no FieldEnv."""
+        found = f"found environment '{self.environment}'"
+        if ":" in self.environment:  # gymnasium imports the module before it, any that a file names
+            raise ArdeeError(f"{found}, expected an id without a module")
         try:
-            return gymnasium.make(
+            env = gymnasium.make(
                 self.environment, max_episode_steps=self.max_episode_steps, **self.arguments
             )
         except (gymnasium.error.Error, TypeError) as error:
-            raise ArdeeError(f"found environment '{self.environment}': {error}") from error
+            raise ArdeeError(f"{found}: {error}") from error
+        if not isinstance(env.unwrapped, FieldEnv):
+            env.close()
+            raise ArdeeError(f"{found}, expected one of ardee's")
+        return env
 
     def play(self, env: gymnasium.Env) -> Iterator[Tuple[Any, ...]]:
         """Repeats the episode in an environment of make(); yields what reset() returns, then what each step() does."""
@@ -96,7 +103,7 @@ class Episode:
 
 
 class RecordEpisode(gymnasium.Wrapper):
-    """Records the present episode of an environment of this package."""
+    """Records the present episode of an environment of this package: the actions that wrappers within made of one's own."""
 
     def __init__(self, env: gymnasium.Env) -> None:
         super().__init__(env)
@@ -104,6 +111,7 @@ class RecordEpisode(gymnasium.Wrapper):
             raise ArdeeError("found an environment without id, expected one of gymnasium.make")
         if not isinstance(env.unwrapped, FieldEnv):
             raise ArdeeError(f"found environment '{env.spec.id}', expected one of ardee's")
+        self._driven = env.unwrapped
         self._limit = env.spec.max_episode_steps or -1
         self._id, self._arguments = env.spec.id, dict(env.spec.kwargs)
         self._replay: Dict[str, Any] = {}
@@ -118,10 +126,9 @@ class RecordEpisode(gymnasium.Wrapper):
         return observation, info
 
     def step(self, action: Any) -> Tuple[Any, SupportsFloat, bool, bool, Dict[str, Any]]:
-        """Drives by the action as it is recorded, in float32."""
-        driven = checks.vector(action, "action", 2).astype(np.float32)
-        result = self.env.step(driven)
-        self._actions.append(driven.tolist())
+        """Drives, and records what the environment did."""
+        result = self.env.step(action)
+        self._actions.append(self._driven.action.tolist())
         return result
 
     @property

@@ -24,6 +24,7 @@ from ardee_world.row_truth import Field, Pose
 from ardee_world.start import STAND_M
 
 SETTLE_S = 0.5  # in which a robot comes to rest on its springs
+REPEAT_S = 0.2  # after which a command is given again: TerraSentias stop after 0.5 s without one
 Episode = Dict[str, Any]
 
 
@@ -127,7 +128,7 @@ class FieldEnv(gymnasium.Env):
             stamps = [reading.stamp_ns for reading in self._sim.drain(topic)]
             gap_ns = float(max(np.diff(stamps))) if len(stamps) > 1 else self._period_s * 1e9
             self._window = max(self._window, math.ceil(gap_ns / self._sim.step_ns))
-        self._sim.demand(*self._task.topics)
+        self._demand_counts = {t: self._sim.demand_count(t) for t in self._task.topics}
         self._task.begin(scene)
         self.observation_space = self._task.space(scene)
 
@@ -155,6 +156,7 @@ class FieldEnv(gymnasium.Env):
         self._sim, self._sown, self._plants, self._first = sim, sown, plants, first
         self._present = seed, dict(numbers)
         self._scene = None
+        self._demand_counts = dict.fromkeys(self._task.topics, 0)
 
     def _place(self, pose: Pose, noise_seed: int) -> Scene:
         """Puts the robot, as it was spawned, to its start, with the noise of an episode."""
@@ -224,31 +226,42 @@ class FieldEnv(gymnasium.Env):
         rng = np.random.default_rng(np.random.SeedSequence(episode["start_seed"]))
         scene = self._place(self._task.start(self._sown, rng), episode["noise_seed"])
         self._scene = scene
-        self._robot.command(scene.sim)
         settle = max(math.ceil(SETTLE_S / self._period_s) * self._steps, self._window)
         self._step_and_measure(scene, settle)
         scene.sim.touched()  # what it touched as it settled is not the driver's
         self._task.begin(scene)
         return self._task.observe(scene), {"replay": episode}
 
-    def _step_and_measure(self, scene: Scene, steps: int) -> None:
-        """Steps; sensors that are faster than a control period measure only at its end."""
-        last = min(self._window, steps)
-        if last < steps:
-            scene.sim.undemand(*self._task.topics)
-            scene.sim.step(steps - last)
-            scene.sim.demand(*self._task.topics)
-        scene.sim.step(last)
+    def _step_and_measure(
+        self, scene: Scene, steps: int, v_m_s: float = 0.0, w_rad_s: float = 0.0
+    ) -> None:
+        """Drives; sensors that are faster than a control period measure only at its end.
+
+        Topics that somebody else has demanded since are left to them.
+        """
+        sim, last = scene.sim, min(self._window, steps)
+        ours = [t for t in self._task.topics if sim.demand_count(t) == self._demand_counts[t]]
+        sim.undemand(*ours)
+        self._drive(sim, steps - last, v_m_s, w_rad_s)
+        sim.demand(*ours)
+        self._demand_counts.update({topic: sim.demand_count(topic) for topic in ours})
+        self._drive(sim, last, v_m_s, w_rad_s)
+
+    def _drive(self, sim: Simulation, steps: int, v_m_s: float, w_rad_s: float) -> None:
+        """Steps under a command, again and again before the robot stops for want of one."""
+        repeat = max(1, int(REPEAT_S * 1e9 / sim.step_ns))
+        for begin in range(0, steps, repeat):
+            self._robot.command(sim, v_m_s, w_rad_s)
+            sim.step(min(repeat, steps - begin))
 
     def step(self, action: Any) -> Tuple[Any, float, bool, bool, Dict[str, Any]]:
         """Drives for a control period; info has the terms of the reward and, at the end, its reason."""
         scene = self._scene
         if scene is None:
             raise RuntimeError("found a step before reset(), expected reset() first")
-        wanted = checks.vector(action, "action", 2)
-        v_m_s, w_rad_s = np.clip(wanted, -1.0, 1.0) * self._limits
-        self._robot.command(scene.sim, v_m_s, w_rad_s)
-        self._step_and_measure(scene, self._steps)
+        self.action = checks.vector(action, "action", 2).astype(np.float32)
+        v_m_s, w_rad_s = np.clip(self.action.astype(float), -1.0, 1.0) * self._limits
+        self._step_and_measure(scene, self._steps, v_m_s, w_rad_s)
         terms = self._task.reward(scene)
         reason, terms["end"] = self._task.end(scene)
         info: Dict[str, Any] = {f"reward_{name}": value for name, value in terms.items()}

@@ -25,9 +25,10 @@ def main() -> None:
                 ranges_m = sim.latest("ardee/hokuyo").ranges_m
                 met = ranges_m[np.isfinite(ranges_m)]
                 place = sim.state("robot").xyz_m
+                nearest = f", the nearest at {met.min():.2f} m" if met.size else ""
                 print(
                     f"{sim.time_ns * 1e-9:.0f} s: x = {place[0]:.2f} m; "
-                    f"{met.size} of {ranges_m.size} beams met something, the nearest at {met.min():.2f} m"
+                    f"{met.size} of {ranges_m.size} beams met something{nearest}"
                 )
         sim.demand("ardee/camera/front/image_raw")
         sim.step(round(0.1e9 / sim.step_ns))

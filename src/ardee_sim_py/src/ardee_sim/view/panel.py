@@ -50,6 +50,8 @@ class Panel:
     ) -> None:
         self.wanted, self._limits = wanted, limits
         self._cameras = (NO_CAMERA, *topics["pictures"])
+        if wanted.camera not in self._cameras:  # of another simulation or robot
+            wanted.camera = NO_CAMERA
         self._inbox: "queue.SimpleQueue[Tuple[str, Any]]" = queue.SimpleQueue()
         self._gui = gui = server.gui
         self._parts: List[Any] = []

@@ -79,7 +79,8 @@ class Viewer:
         self._server = start_server(host, port)
         try:
             self._server.scene.configure_default_lights(cast_shadow=False)
-            self.url = f"http://{host}:{self._server.get_port()}"
+            place = f"[{host}]" if ":" in host else host  # IPv6
+            self.url = f"http://{place}:{self._server.get_port()}"
             self._world = self._server.scene.add_frame(node(), show_axes=False)
             self.wanted = Wanted()
             self._is_first = True
