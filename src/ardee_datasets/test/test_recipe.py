@@ -9,6 +9,8 @@ from small_sets import RECIPE
 from ardee_common.errors import GeneratorError
 from ardee_datasets.plan import scenes, shots
 from ardee_datasets.recipe import read_recipe
+from ardee_datasets.scenery import Scenery
+from ardee_world.row_truth import Polyline, read_field
 
 
 def read(folder: Path, old: str, new: str) -> object:
@@ -157,3 +159,18 @@ def test_an_exposure_may_be_automatic(tmp_path: Path) -> None:
 def test_own_labels_that_cannot_be_are_refused(tmp_path: Path, labels: str, message: str) -> None:
     with pytest.raises(GeneratorError, match=message):
         read(tmp_path, "lidars:\n", f"labels: {labels}\nlidars:\n")
+
+
+def test_cameras_stand_between_rows_of_one_plot(tmp_path: Path) -> None:
+    """Half a row's spacing from those of their lane, 0.38 m, less what rows of seedlings wander."""
+    plots = "options: {models: [corn_variant_1], row_length_m: 2.0, rows_per_plot: 3, plots_y: 2}"
+    (tmp_path / "recipe.yaml").write_text(f"fields: {{corn: {{{plots}}}}}\ncameras: {{front: {{sensor: realsense_d435}}}}\n")
+    recipe = read_recipe(tmp_path / "recipe.yaml")
+    (scene,) = scenes(recipe)
+    scenery = Scenery(scene, tmp_path)
+    rows = [Polyline(row) for row in read_field(scenery.folder / "truth.json").rows]
+    for seed in range(40):
+        x_m, y_m, _ = scenery.draw_pose(recipe.cameras["front"], seed).xyz_m
+        seen = [(row, row.project(x_m, y_m)) for row in rows]
+        beside_m = [abs(at.left_m) for row, at in seen if 0 <= at.along_m <= row.length_m]
+        assert min(beside_m) > 0.3, seed
