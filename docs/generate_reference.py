@@ -159,6 +159,11 @@ def commands() -> List[str]:
 def help_of(command: str) -> str:
     """Returns what a command prints with -h."""
     words, env = [*command.split(), "-h"], dict(os.environ, COLUMNS="100")
+    if words[0] == "rosrun":  # which looks for the program for a second
+        _, package, program, flag = words
+        script = ROOT / "src" / package / "scripts" / program
+        built = ROOT / "devel" / "lib" / package / program
+        words = [str(script if script.is_file() else built), flag]
     out, err, none = subprocess.PIPE, subprocess.STDOUT, subprocess.DEVNULL
     run = subprocess.run(
         words, cwd=ROOT, env=env, stdout=out, stderr=err, stdin=none, timeout=HELP_SECONDS
