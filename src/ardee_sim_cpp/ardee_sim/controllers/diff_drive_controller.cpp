@@ -163,16 +163,12 @@ DiffDriveController::DiffDriveController(const ControllerContext& context)
 }
 
 void DiffDriveController::add_tuning(const ControllerContext& context) {
+  using Tunable = devices::TunableParameter;
   const auto multiplier = [](const std::string& name, const std::string& description,
                              double& value) {
-    return devices::TunableParameter{name,
-                                     description,
-                                     devices::TunableParameter::Type::kDouble,
-                                     0.5,
-                                     1.5,
-                                     value,
-                                     [&value] { return value; },
-                                     [&value](double number) { value = number; }};
+    const auto get = [&value] { return value; };
+    const auto set = [&value](double number) { value = number; };
+    return Tunable{name, description, Tunable::Type::kDouble, 0.5, 1.5, value, get, set};
   };
   constexpr double kHighestRateHz = 2000.0;
   PublishTimer& timer = publish_timer();
@@ -185,11 +181,11 @@ void DiffDriveController::add_tuning(const ControllerContext& context) {
                    right_.radius_multiplier),
         multiplier("wheel_separation_multiplier", "Wheel separation multiplier.",
                    separation_multiplier_),
-        {"publish_rate", "Publish rate of odom.", devices::TunableParameter::Type::kDouble, 0.0,
-         kHighestRateHz, timer.rate_hz(), [&timer] { return timer.rate_hz(); },
+        {"publish_rate", "Publish rate of odom.", Tunable::Type::kDouble, 0.0, kHighestRateHz,
+         timer.rate_hz(), [&timer] { return timer.rate_hz(); },
          [&timer](double rate_hz) { timer.set_rate(rate_hz); }},
-        {"enable_odom_tf", "Publish odom frame to tf.", devices::TunableParameter::Type::kBool, 0.0,
-         1.0, tf ? 1.0 : 0.0, [&tf] { return tf ? 1.0 : 0.0; },
+        {"enable_odom_tf", "Publish odom frame to tf.", Tunable::Type::kBool, 0.0, 1.0,
+         tf ? 1.0 : 0.0, [&tf] { return tf ? 1.0 : 0.0; },
          [&tf](double number) { tf = number != 0.0; }}}});
 }
 
