@@ -13,14 +13,9 @@ constexpr double kMostCount = 10000.0;
 /// A number of Gazebo that this engine lacks: always 0.
 devices::TunableParameter inert(const char* name, devices::TunableParameter::Type type,
                                 double high) {
-  return {name,
-          "without effect",
-          type,
-          0.0,
-          high,
-          0.0,
-          [] { return 0.0; },
-          [](double) { warn_of_inert_physics(); }};
+  const auto get = [] { return 0.0; };
+  const auto set = [](double) { warn_of_inert_physics(); };
+  return {name, "without effect", type, 0.0, high, 0.0, get, set};
 }
 
 const devices::TunableParameter& require(const devices::ParameterGroup& tuning,
@@ -42,39 +37,31 @@ void warn_of_inert_physics() {
 
 devices::TunableParameter PhysicsTuning::number(const char* name, const char* unit, double high,
                                                 double initial, double PhysicsParams::*field) {
-  return {name,
-          unit,
-          devices::TunableParameter::Type::kDouble,
-          0.0,
-          high,
-          initial,
-          [this, field] { return context_.simulation.physics().*field; },
-          [this, field](double value) { wanted_.*field = value; }};
+  const auto get = [this, field] { return context_.simulation.physics().*field; };
+  const auto set = [this, field](double value) { wanted_.*field = value; };
+  return {name, unit, devices::TunableParameter::Type::kDouble, 0.0, high, initial, get, set};
 }
 
 devices::TunableParameter PhysicsTuning::count(const char* name, double initial,
                                                int PhysicsParams::*field) {
-  return {name,
-          "",
-          devices::TunableParameter::Type::kInt,
-          0.0,
-          kMostCount,
-          initial,
-          [this, field] { return double(context_.simulation.physics().*field); },
-          [this, field](double value) { wanted_.*field = static_cast<int>(value); }};
+  const auto get = [this, field] { return double(context_.simulation.physics().*field); };
+  const auto set = [this, field](double value) { wanted_.*field = static_cast<int>(value); };
+  return {name, "", devices::TunableParameter::Type::kInt, 0.0, kMostCount, initial, get, set};
 }
 
 devices::TunableParameter PhysicsTuning::gravity(const char* name, Eigen::Index axis,
                                                  double initial) {
   constexpr double kMost_m_per_s2 = 100.0;
+  const auto get = [this, axis] { return context_.simulation.physics().gravity_m_per_s2[axis]; };
+  const auto set = [this, axis](double value) { wanted_.gravity_m_per_s2[axis] = value; };
   return {name,
           "m/s^2",
           devices::TunableParameter::Type::kDouble,
           -kMost_m_per_s2,
           kMost_m_per_s2,
           initial,
-          [this, axis] { return context_.simulation.physics().gravity_m_per_s2[axis]; },
-          [this, axis](double value) { wanted_.gravity_m_per_s2[axis] = value; }};
+          get,
+          set};
 }
 
 devices::ParameterGroup PhysicsTuning::describe(const std::string& space) {

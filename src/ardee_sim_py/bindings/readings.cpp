@@ -41,10 +41,6 @@ constexpr std::array kClasses = {"LidarReading",
                                  "WrenchReading"};
 static_assert(kClasses.size() == std::variant_size_v<Reading>);
 
-py::dict begin(const Header& header) {
-  return py::dict("stamp_ns"_a = header.stamp_ns, "frame_id"_a = header.frame_id);
-}
-
 py::array_t<double> vector_of(const Eigen::Vector3d& v) {
   return hold(std::vector<double>{v.x(), v.y(), v.z()});
 }
@@ -65,8 +61,7 @@ void add(py::dict& made, const Twist& twist) {
   made["w_rad_s"] = vector_of(twist.angular);
 }
 
-py::dict fields(const LidarReading& r, const Owner& owner) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const LidarReading& r, const Owner& owner) {
   made["angle_min_rad"] = r.angle_min_rad;
   made["angle_max_rad"] = r.angle_max_rad;
   made["angle_increment_rad"] = r.angle_increment_rad;
@@ -77,88 +72,68 @@ py::dict fields(const LidarReading& r, const Owner& owner) {
   const auto beams = static_cast<py::ssize_t>(r.ranges_m.size());
   made["ranges_m"] = view(r.ranges_m.data(), {beams}, owner);
   made["intensities"] = view(r.intensities.data(), {beams}, owner);
-  return made;
 }
 
-py::dict fields(const OdometryReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const OdometryReading& r, const Owner&) {
   made["child_frame_id"] = r.child_frame_id;
   add(made, r.pose);
   add(made, r.twist);
   made["pose_covariance"] = array_of(r.pose_covariance);
   made["twist_covariance"] = array_of(r.twist_covariance);
-  return made;
 }
 
-py::dict fields(const TransformReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const TransformReading& r, const Owner&) {
   made["child_frame_id"] = r.child_frame_id;
   add(made, r.pose);
-  return made;
 }
 
-py::dict fields(const JointStateReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const JointStateReading& r, const Owner&) {
   made["names"] = py::tuple(py::cast(r.names));
   made["positions"] = hold(r.positions);
   made["velocities"] = hold(r.velocities);
   made["efforts"] = hold(r.efforts);
-  return made;
 }
 
-py::dict fields(const ImuReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const ImuReading& r, const Owner&) {
   made["quat_xyzw"] = quaternion_of(r.orientation);
   made["w_rad_s"] = vector_of(r.angular_velocity);
   made["a_m_s2"] = vector_of(r.linear_acceleration);
   made["orientation_covariance"] = array_of(r.orientation_covariance);
   made["w_covariance"] = array_of(r.angular_velocity_covariance);
   made["a_covariance"] = array_of(r.linear_acceleration_covariance);
-  return made;
 }
 
-py::dict fields(const FixReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const FixReading& r, const Owner&) {
   made["status"] = r.status;
   made["service"] = r.service;
   made["latitude_deg"] = r.latitude_deg;
   made["longitude_deg"] = r.longitude_deg;
   made["altitude_m"] = r.altitude_m;
   made["covariance_m2"] = array_of(r.covariance);
-  return made;
 }
 
-py::dict fields(const VectorReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const VectorReading& r, const Owner&) {
   made["vector"] = vector_of(r.vector);
-  return made;
 }
 
-py::dict fields(const MagneticFieldReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const MagneticFieldReading& r, const Owner&) {
   made["field_t"] = vector_of(r.field_T);
-  return made;
 }
 
-py::dict fields(const EncoderReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const EncoderReading& r, const Owner&) {
   made["id"] = r.id;
   made["position_rad"] = r.position_rad;
   made["speed_m_s"] = r.speed_m_per_s;
   made["pulses_per_s"] = r.pulses_per_s;
-  return made;
 }
 
-py::dict fields(const BatteryReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const BatteryReading& r, const Owner&) {
   made["voltage_v"] = r.voltage_V;
   made["voltage_max_v"] = r.voltage_max_V;
   made["voltage_min_v"] = r.voltage_min_V;
-  return made;
 }
 
-py::dict fields(const BatteryStateReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const BatteryStateReading& r, const Owner&) {
   made["voltage_v"] = r.voltage_V;
   made["current_a"] = r.current_A;
   made["charge_a_h"] = r.charge_Ah;
@@ -166,18 +141,15 @@ py::dict fields(const BatteryStateReading& r, const Owner&) {
   made["design_capacity_a_h"] = r.design_capacity_Ah;
   made["percentage"] = r.percentage;
   made["location"] = r.location;
-  return made;
 }
 
-py::dict fields(const RangeReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const RangeReading& r, const Owner&) {
   made["radiation"] =
       r.radiation == RangeReading::Radiation::kUltrasound ? "ultrasound" : "infrared";
   made["field_of_view_rad"] = r.field_of_view_rad;
   made["range_min_m"] = r.range_min_m;
   made["range_max_m"] = r.range_max_m;
   made["range_m"] = r.range_m;
-  return made;
 }
 
 const char* type_code(PointCloudReading::Type type) {
@@ -194,7 +166,7 @@ const char* type_code(PointCloudReading::Type type) {
   throw std::logic_error("found a type of point fields without a code");
 }
 
-py::dict fields(const PointCloudReading& r, const Owner& owner) {
+void fields(py::dict& made, const PointCloudReading& r, const Owner& owner) {
   py::list names, formats, offsets;
   for (const PointCloudReading::Field& field : r.fields) {
     names.append(field.name);
@@ -204,22 +176,18 @@ py::dict fields(const PointCloudReading& r, const Owner& owner) {
   const py::dict layout("names"_a = names, "formats"_a = formats, "offsets"_a = offsets,
                         "itemsize"_a = r.point_step);
   const auto bytes = static_cast<py::ssize_t>(r.data.size());
-  py::dict made = begin(r.header);
   made["height"] = r.height;
   made["width"] = r.width;
   made["points"] = view(r.data.data(), {bytes}, owner).attr("view")(py::dtype::from_args(layout));
   made["is_dense"] = r.is_dense;
-  return made;
 }
 
-py::dict fields(const LegacyCloudReading& r, const Owner& owner) {
+void fields(py::dict& made, const LegacyCloudReading& r, const Owner& owner) {
   const auto count = static_cast<py::ssize_t>(r.points.size());
   const float* first = r.points.empty() ? nullptr : r.points.front().data();
-  py::dict made = begin(r.header);
   made["points_m"] = view(first, {count, 3}, owner);
   made["channel_name"] = r.channel_name;
   made["channel"] = view(r.channel.data(), {static_cast<py::ssize_t>(r.channel.size())}, owner);
-  return made;
 }
 
 /// Type code and channels of an encoding of sensor_msgs/image_encodings.
@@ -231,39 +199,33 @@ std::pair<const char*, int> layout_of(const std::string& encoding) {
   return {"u1", 1};  // mono8, Bayer patterns
 }
 
-py::dict fields(const ImageReading& r, const Owner& owner) {
+void fields(py::dict& made, const ImageReading& r, const Owner& owner) {
   const auto [code, channels] = layout_of(r.encoding);
   py::array pixels =
       view(r.data.data(), {static_cast<py::ssize_t>(r.data.size())}, owner).attr("view")(code);
   const auto height = static_cast<py::ssize_t>(r.height), width = static_cast<py::ssize_t>(r.width);
-  py::dict made = begin(r.header);
   made["encoding"] = r.encoding;
   made["pixels"] = channels == 1 ? pixels.attr("reshape")(height, width)
                                  : pixels.attr("reshape")(height, width, channels);
-  return made;
 }
 
-py::dict fields(const CameraInfoReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const CameraInfoReading& r, const Owner&) {
   made["height_px"] = r.height;
   made["width_px"] = r.width;
   made["distortion"] = array_of(r.D);
   made["camera_matrix"] = array_of(r.K).attr("reshape")(3, 3);
   made["rectification"] = array_of(r.R).attr("reshape")(3, 3);
   made["projection"] = array_of(r.P).attr("reshape")(3, 4);
-  return made;
 }
 
-py::dict fields(const GpsQualityReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const GpsQualityReading& r, const Owner&) {
   made["region"] = r.region;
   made["position_std_m"] = r.position_std_m;
   made["has_fix"] = r.has_fix;
   made["error_m"] = vector_of(r.error_m);
-  return made;
 }
 
-py::dict fields(const RegionsReading& r, const Owner&) {
+void fields(py::dict& made, const RegionsReading& r, const Owner&) {
   py::list regions;
   for (const RegionsReading::Region& region : r.regions) {
     py::dict each("name"_a = region.name, "size_m"_a = vector_of(region.size_m));
@@ -271,19 +233,12 @@ py::dict fields(const RegionsReading& r, const Owner&) {
     each["rgba"] = hold(std::vector<float>(region.rgba.begin(), region.rgba.end()));
     regions.append(each);
   }
-  py::dict made = begin(r.header);
   made["regions"] = py::tuple(regions);
-  return made;
 }
 
-py::dict fields(const TwistReading& r, const Owner&) {
-  py::dict made = begin(r.header);
-  add(made, r.twist);
-  return made;
-}
+void fields(py::dict& made, const TwistReading& r, const Owner&) { add(made, r.twist); }
 
-py::dict fields(const JointControllerReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const JointControllerReading& r, const Owner&) {
   made["set_point"] = r.set_point;
   made["process_value"] = r.process_value;
   made["process_value_dot"] = r.process_value_dot;
@@ -295,7 +250,6 @@ py::dict fields(const JointControllerReading& r, const Owner&) {
   made["d"] = r.d;
   made["i_clamp"] = r.i_clamp;
   made["antiwindup"] = r.antiwindup;
-  return made;
 }
 
 py::dict point_of(const JointTrajectoryPoint& point) {
@@ -304,17 +258,14 @@ py::dict point_of(const JointTrajectoryPoint& point) {
                   "time_from_start_s"_a = point.time_from_start_s);
 }
 
-py::dict fields(const TrajectoryControllerReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const TrajectoryControllerReading& r, const Owner&) {
   made["names"] = py::tuple(py::cast(r.names));
   made["desired"] = point_of(r.desired);
   made["actual"] = point_of(r.actual);
   made["error"] = point_of(r.error);
-  return made;
 }
 
-py::dict fields(const FourWheelSteeringReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const FourWheelSteeringReading& r, const Owner&) {
   made["front_angle_rad"] = r.front_angle_rad;
   made["rear_angle_rad"] = r.rear_angle_rad;
   made["front_rate_rad_s"] = r.front_rate_rad_per_s;
@@ -322,10 +273,9 @@ py::dict fields(const FourWheelSteeringReading& r, const Owner&) {
   made["speed_m_s"] = r.speed_m_per_s;
   made["acceleration_m_s2"] = r.acceleration_m_per_s2;
   made["jerk_m_s3"] = r.jerk_m_per_s3;
-  return made;
 }
 
-py::dict fields(const ContactsReading& r, const Owner&) {
+void fields(py::dict& made, const ContactsReading& r, const Owner&) {
   py::list touches;
   for (const ContactsReading::Touch& touch : r.touches) {
     py::list points;
@@ -333,16 +283,12 @@ py::dict fields(const ContactsReading& r, const Owner&) {
     touches.append(py::dict("time_ns"_a = touch.time_ns, "collision1"_a = touch.collision1,
                             "collision2"_a = touch.collision2, "points"_a = py::tuple(points)));
   }
-  py::dict made = begin(r.header);
   made["touches"] = py::tuple(touches);
-  return made;
 }
 
-py::dict fields(const WrenchReading& r, const Owner&) {
-  py::dict made = begin(r.header);
+void fields(py::dict& made, const WrenchReading& r, const Owner&) {
   made["force_n"] = vector_of(r.wrench.force);
   made["torque_n_m"] = vector_of(r.wrench.torque);
-  return made;
 }
 
 }  // namespace
@@ -356,7 +302,12 @@ py::dict contact_fields(const physics::Contact& contact) {
 }
 
 py::dict reading_fields(const std::shared_ptr<const Reading>& reading) {
-  return std::visit([&](const auto& each) { return fields(each, reading); }, *reading);
+  const auto fields_of = [&](const auto& each) {
+    py::dict made("stamp_ns"_a = each.header.stamp_ns, "frame_id"_a = each.header.frame_id);
+    fields(made, each, reading);
+    return made;
+  };
+  return std::visit(fields_of, *reading);
 }
 
 }  // namespace ardee::python

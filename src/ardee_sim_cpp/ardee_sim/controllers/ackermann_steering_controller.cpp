@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/ackermann_steering_controller.h"
-
 #include <cmath>
 
+#include "ardee_sim/controllers/controller_types.h"
+#include "ardee_sim/controllers/drive_controller.h"
+#include "ardee_sim/controllers/speed_limiter.h"
 #include "ardee_sim/controllers/wheel_geometry.h"
 
 namespace ardee::control {
@@ -26,11 +27,59 @@ double read_wheel_base(const ControllerContext& context) {
                   given);
 }
 
-}  // namespace
+/// ackermann_steering_controller/AckermannSteeringController: one driven wheel at the rear, one
+/// steered at the front. The command's angular z is the steering angle in rad.
+class AckermannSteeringController : public DriveController {
+ public:
+  explicit AckermannSteeringController(const ControllerContext& context);
 
-std::unique_ptr<Controller> AckermannSteeringController::make(const ControllerContext& context) {
-  return std::make_unique<AckermannSteeringController>(context);
-}
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override {
+    update_odometry(now_ns);
+    publish_odometry(now_ns, sink);
+    const Twist wanted = twist_at(now_ns);
+    rear_wheel_.command = linear_.limit(wanted.linear.x(), period_s) / radius_m_;
+    front_steer_.command = steering_.limit(wanted.angular.z(), period_s);
+  }
+  void reset(TimeNs now_ns) override {
+    DriveController::reset(now_ns);
+    linear_.reset();
+    steering_.reset();
+    last_rolled_m_ = 0.0;
+  }
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(linear_, steering_, last_rolled_m_);
+  }
+
+ private:
+  void brake() override {
+    rear_wheel_.command = 0.0;
+    front_steer_.command = 0.0;
+  }
+  void update_odometry(TimeNs now_ns) {
+    if (open_loop_) {
+      const double turn = linear_.last() * std::tan(steering_.last()) / odometry_base_m_;
+      odometry().add_velocity({linear_.last(), 0.0, turn}, now_ns);
+      return;
+    }
+    const double rolled_m = rear_wheel_.position * odometry_radius_m_;
+    const double way_m = rolled_m - last_rolled_m_;
+    last_rolled_m_ = rolled_m;
+    const double steer = front_steer_.position * steer_multiplier_;
+    odometry().add_way({way_m, 0.0, std::tan(steer) * way_m / odometry_base_m_}, now_ns);
+  }
+
+  JointHandle& rear_wheel_;
+  JointHandle& front_steer_;
+  bool open_loop_;
+  double radius_m_;  // used for commands
+  double odometry_base_m_;
+  double odometry_radius_m_;
+  double steer_multiplier_;
+  SpeedLimiter linear_;
+  SpeedLimiter steering_;
+  double last_rolled_m_ = 0.0;  // the wheel's first position counts as 0
+};
 
 AckermannSteeringController::AckermannSteeringController(const ControllerContext& context)
     : DriveController(context, context.settings.text("odom_frame_id", "odom")),
@@ -48,38 +97,10 @@ AckermannSteeringController::AckermannSteeringController(const ControllerContext
       linear_(context.settings, "linear/x"),
       steering_(context.settings, "angular/z") {}
 
-void AckermannSteeringController::brake() {
-  rear_wheel_.command = 0.0;
-  front_steer_.command = 0.0;
-}
+}  // namespace
 
-void AckermannSteeringController::update_odometry(TimeNs now_ns) {
-  if (open_loop_) {
-    const double turn = linear_.last() * std::tan(steering_.last()) / odometry_base_m_;
-    odometry().add_velocity({linear_.last(), 0.0, turn}, now_ns);
-    return;
-  }
-  const double rolled_m = rear_wheel_.position * odometry_radius_m_;
-  const double way_m = rolled_m - last_rolled_m_;
-  last_rolled_m_ = rolled_m;
-  const double steer = front_steer_.position * steer_multiplier_;
-  odometry().add_way({way_m, 0.0, std::tan(steer) * way_m / odometry_base_m_}, now_ns);
-}
-
-void AckermannSteeringController::update(TimeNs now_ns, double period_s,
-                                         devices::ReadingSink& sink) {
-  update_odometry(now_ns);
-  publish_odometry(now_ns, sink);
-  const Twist wanted = twist_at(now_ns);
-  rear_wheel_.command = linear_.limit(wanted.linear.x(), period_s) / radius_m_;
-  front_steer_.command = steering_.limit(wanted.angular.z(), period_s);
-}
-
-void AckermannSteeringController::reset(TimeNs now_ns) {
-  DriveController::reset(now_ns);
-  linear_.reset();
-  steering_.reset();
-  last_rolled_m_ = 0.0;
+std::unique_ptr<Controller> make_ackermann_steering(const ControllerContext& context) {
+  return std::make_unique<AckermannSteeringController>(context);
 }
 
 }  // namespace ardee::control

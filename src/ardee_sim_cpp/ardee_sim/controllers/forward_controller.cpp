@@ -8,14 +8,6 @@
 #include "ardee_sim/core/error.h"
 
 namespace ardee::control {
-namespace {
-
-template <JointInterface kInterface, JointCount kCount>
-std::unique_ptr<Controller> make(const ControllerContext& context) {
-  return std::make_unique<ForwardController>(context, kInterface, kCount);
-}
-
-}  // namespace
 
 std::vector<std::string> commanded_joints(const Setting& settings, JointCount count) {
   if (count == JointCount::kOne) return {settings.text("joint")};
@@ -42,27 +34,6 @@ void add_command_input(const ControllerContext& context, JointCount count,
     }
     commands = given;
   });
-}
-
-std::unique_ptr<Controller> ForwardController::make_position(const ControllerContext& context) {
-  return make<JointInterface::kPosition, JointCount::kOne>(context);
-}
-std::unique_ptr<Controller> ForwardController::make_velocity(const ControllerContext& context) {
-  return make<JointInterface::kVelocity, JointCount::kOne>(context);
-}
-std::unique_ptr<Controller> ForwardController::make_effort(const ControllerContext& context) {
-  return make<JointInterface::kEffort, JointCount::kOne>(context);
-}
-std::unique_ptr<Controller> ForwardController::make_group_position(
-    const ControllerContext& context) {
-  return make<JointInterface::kPosition, JointCount::kGroup>(context);
-}
-std::unique_ptr<Controller> ForwardController::make_group_velocity(
-    const ControllerContext& context) {
-  return make<JointInterface::kVelocity, JointCount::kGroup>(context);
-}
-std::unique_ptr<Controller> ForwardController::make_group_effort(const ControllerContext& context) {
-  return make<JointInterface::kEffort, JointCount::kGroup>(context);
 }
 
 ForwardController::ForwardController(const ControllerContext& context, JointInterface interface,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "ardee_sim/controllers/controller.h"
@@ -16,13 +15,6 @@ enum class JointCount { kOne, kGroup };
 /// effort}_controllers/{JointPosition, JointVelocity, JointEffort, JointGroup...}Controller.
 class ForwardController : public Controller {
  public:
-  static std::unique_ptr<Controller> make_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_velocity(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_group_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_group_velocity(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_group_effort(const ControllerContext& context);
-
   ForwardController(const ControllerContext& context, JointInterface interface, JointCount count);
 
   /// Holds the present positions, or commands velocities and efforts of 0.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/four_wheel_steering_controller.h"
-
+#include <array>
 #include <cmath>
 
+#include "ardee_sim/controllers/controller_types.h"
+#include "ardee_sim/controllers/drive_controller.h"
+#include "ardee_sim/controllers/four_wheel_geometry.h"
+#include "ardee_sim/controllers/speed_limiter.h"
 #include "ardee_sim/controllers/wheel_geometry.h"
 #include "ardee_sim/core/error.h"
 
@@ -36,11 +39,102 @@ FourWheelGeometry read_geometry(const ControllerContext& context) {
   return geometry;
 }
 
-}  // namespace
+/// four_wheel_steering_controller/FourWheelSteeringController: four driven and steered wheels,
+/// commanded by a velocity on "cmd_vel" or by steering angles on "cmd_four_wheel_steering".
+class FourWheelSteeringController : public DriveController {
+ public:
+  explicit FourWheelSteeringController(const ControllerContext& context);
 
-std::unique_ptr<Controller> FourWheelSteeringController::make(const ControllerContext& context) {
-  return std::make_unique<FourWheelSteeringController>(context);
-}
+  void start(TimeNs now_ns) override {
+    DriveController::start(now_ns);
+    for (RollingMean* mean :
+         {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
+      mean->clear();
+    }
+    last_ns_ = now_ns;
+  }
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override {
+    DriveController::reset(now_ns);
+    linear_.reset();
+    angular_.reset();
+    for (RollingMean* mean :
+         {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
+      mean->clear();
+    }
+    front_.angle_rad = rear_.angle_rad = speed_m_per_s_ = 0.0;
+    last_ns_ = now_ns;
+  }
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(linear_, angular_, speed_m_per_s_, acceleration_, jerk_, last_ns_);
+    for (Axle* axle : {&front_, &rear_}) state(axle->rate_rad_per_s, axle->angle_rad);
+  }
+
+ private:
+  struct Axle {
+    std::array<JointHandle*, 2> wheels;  // left, right
+    std::array<JointHandle*, 2> steering;
+    RollingMean rate_rad_per_s;
+    double angle_rad = 0.0;
+
+    AxleState state() const {
+      return {FourWheelGeometry::virtual_angle(steering[0]->position, steering[1]->position),
+              {wheels[0]->velocity, wheels[1]->velocity}};
+    }
+    void set(const AxleCommand& command) {
+      for (std::size_t i = 0; i < wheels.size(); ++i) {
+        wheels[i]->command = command.speeds[i];
+        steering[i]->command = command.angles[i];
+      }
+    }
+  };
+
+  std::array<JointHandle*, 2> read_joints(const ControllerContext& context, const std::string& key,
+                                          JointInterface interface) {
+    const std::vector<std::string> names = joint_names(context.settings, key);
+    const Setting source = context.settings.at(key);
+    if (names.size() != 2) {
+      throw Error(source.path() + ": found " + std::to_string(names.size()) +
+                  " joints, expected 2, left and right");
+    }
+    return {&claim(context, names[0], interface, source),
+            &claim(context, names[1], interface, source)};
+  }
+  Axle read_axle(const ControllerContext& context, const std::string& key) {
+    return {read_joints(context, key + "_wheel", JointInterface::kVelocity),
+            read_joints(context, key + "_steering", JointInterface::kPosition),
+            RollingMean(read_window(context.settings))};
+  }
+  void brake() override {
+    front_.set({});
+    rear_.set({});
+  }
+  void update_odometry(TimeNs now_ns);
+  void publish_steering(TimeNs now_ns, devices::ReadingSink& sink) const {
+    if (!steering_output_.demanded) return;
+    sink.on_reading(steering_output_,
+                    devices::FourWheelSteeringReading{{now_ns, ""},
+                                                      front_.angle_rad,
+                                                      rear_.angle_rad,
+                                                      front_.rate_rad_per_s.mean(),
+                                                      rear_.rate_rad_per_s.mean(),
+                                                      speed_m_per_s_,
+                                                      acceleration_.mean(),
+                                                      jerk_.mean()});
+  }
+
+  Axle front_;
+  Axle rear_;
+  FourWheelGeometry geometry_;
+  SpeedLimiter linear_;
+  SpeedLimiter angular_;
+  double speed_m_per_s_ = 0.0;
+  RollingMean acceleration_;
+  RollingMean jerk_;
+  TimeNs last_ns_ = 0;
+  devices::Output& steering_output_;
+};
 
 FourWheelSteeringController::FourWheelSteeringController(const ControllerContext& context)
     : DriveController(context, "odom"),
@@ -64,51 +158,6 @@ FourWheelSteeringController::FourWheelSteeringController(const ControllerContext
       });
 }
 
-std::array<JointHandle*, 2> FourWheelSteeringController::read_joints(
-    const ControllerContext& context, const std::string& key, JointInterface interface) {
-  const std::vector<std::string> names = joint_names(context.settings, key);
-  const Setting source = context.settings.at(key);
-  if (names.size() != 2) {
-    throw Error(source.path() + ": found " + std::to_string(names.size()) +
-                " joints, expected 2, left and right");
-  }
-  return {&claim(context, names[0], interface, source),
-          &claim(context, names[1], interface, source)};
-}
-
-FourWheelSteeringController::Axle FourWheelSteeringController::read_axle(
-    const ControllerContext& context, const std::string& key) {
-  return {read_joints(context, key + "_wheel", JointInterface::kVelocity),
-          read_joints(context, key + "_steering", JointInterface::kPosition),
-          RollingMean(read_window(context.settings))};
-}
-
-AxleState FourWheelSteeringController::Axle::state() const {
-  return {FourWheelGeometry::virtual_angle(steering[0]->position, steering[1]->position),
-          {wheels[0]->velocity, wheels[1]->velocity}};
-}
-
-void FourWheelSteeringController::Axle::set(const AxleCommand& command) {
-  for (std::size_t i = 0; i < wheels.size(); ++i) {
-    wheels[i]->command = command.speeds[i];
-    steering[i]->command = command.angles[i];
-  }
-}
-
-void FourWheelSteeringController::brake() {
-  front_.set({});
-  rear_.set({});
-}
-
-void FourWheelSteeringController::start(TimeNs now_ns) {
-  DriveController::start(now_ns);
-  for (RollingMean* mean :
-       {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
-    mean->clear();
-  }
-  last_ns_ = now_ns;
-}
-
 void FourWheelSteeringController::update_odometry(TimeNs now_ns) {
   constexpr TimeNs kShortestNs = 100'000;
   if (now_ns - last_ns_ < kShortestNs) return;
@@ -126,19 +175,6 @@ void FourWheelSteeringController::update_odometry(TimeNs now_ns) {
   acceleration_.add((speed - speed_m_per_s_) / elapsed_s);
   jerk_.add((acceleration_.mean() - last_acceleration) / elapsed_s);
   speed_m_per_s_ = speed;
-}
-
-void FourWheelSteeringController::publish_steering(TimeNs now_ns,
-                                                   devices::ReadingSink& sink) const {
-  if (!steering_output_.demanded) return;
-  sink.on_reading(steering_output_, devices::FourWheelSteeringReading{{now_ns, ""},
-                                                                      front_.angle_rad,
-                                                                      rear_.angle_rad,
-                                                                      front_.rate_rad_per_s.mean(),
-                                                                      rear_.rate_rad_per_s.mean(),
-                                                                      speed_m_per_s_,
-                                                                      acceleration_.mean(),
-                                                                      jerk_.mean()});
 }
 
 void FourWheelSteeringController::update(TimeNs now_ns, double period_s,
@@ -159,16 +195,10 @@ void FourWheelSteeringController::update(TimeNs now_ns, double period_s,
   rear_.set(commands[1]);
 }
 
-void FourWheelSteeringController::reset(TimeNs now_ns) {
-  DriveController::reset(now_ns);
-  linear_.reset();
-  angular_.reset();
-  for (RollingMean* mean :
-       {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
-    mean->clear();
-  }
-  front_.angle_rad = rear_.angle_rad = speed_m_per_s_ = 0.0;
-  last_ns_ = now_ns;
+}  // namespace
+
+std::unique_ptr<Controller> make_four_wheel_steering(const ControllerContext& context) {
+  return std::make_unique<FourWheelSteeringController>(context);
 }
 
 }  // namespace ardee::control

@@ -9,13 +9,6 @@
 
 namespace ardee::control {
 
-std::unique_ptr<Controller> GripperController::make_position(const ControllerContext& context) {
-  return std::make_unique<GripperController>(context, JointInterface::kPosition);
-}
-std::unique_ptr<Controller> GripperController::make_effort(const ControllerContext& context) {
-  return std::make_unique<GripperController>(context, JointInterface::kEffort);
-}
-
 GripperController::GripperController(const ControllerContext& context, JointInterface interface)
     : joint_(
           claim(context, context.settings.text("joint"), interface, context.settings.at("joint"))),

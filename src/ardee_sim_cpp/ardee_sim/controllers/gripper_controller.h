@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "ardee_sim/controllers/controller.h"
@@ -14,9 +13,6 @@ namespace ardee::control {
 /// goal.
 class GripperController : public Controller {
  public:
-  static std::unique_ptr<Controller> make_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
-
   GripperController(const ControllerContext& context, JointInterface interface);
 
   void start(TimeNs now_ns) override;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/joint_state_controller.h"
-
 #include <algorithm>
+#include <vector>
 
+#include "ardee_sim/controllers/controller.h"
+#include "ardee_sim/controllers/controller_types.h"
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/devices/names.h"
 
@@ -16,11 +17,39 @@ double exact_double(const Setting& extra_joint, const std::string& key, const st
   throw Error(place + "/" + key + ": expected a number with a point, as 0.0");
 }
 
-}  // namespace
+/// joint_state_controller/JointStateController: publishes the states of the hardware's joints on
+/// "joint_states" of the robot.
+class JointStateController : public Controller {
+ public:
+  explicit JointStateController(const ControllerContext& context);
 
-std::unique_ptr<Controller> JointStateController::make(const ControllerContext& context) {
-  return std::make_unique<JointStateController>(context);
-}
+  void start(TimeNs now_ns) override {
+    constexpr double kPeriodsAgo = 1.001;  // the first update publishes
+    const bool publishes = timer_.rate_hz() > 0.0;
+    timer_.start(publishes ? now_ns - nanoseconds(kPeriodsAgo / timer_.rate_hz()) : now_ns);
+  }
+  void update(TimeNs now_ns, double /*period_s*/, devices::ReadingSink& sink) override {
+    if (!timer_.due(now_ns) || !output_.demanded) return;
+    reading_.header.stamp_ns = now_ns;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      reading_.positions[i] = joints_[i]->position;
+      reading_.velocities[i] = joints_[i]->velocity;
+      reading_.efforts[i] = joints_[i]->effort;
+    }
+    sink.on_reading(output_, reading_);
+  }
+  void reset(TimeNs now_ns) override { start(now_ns); }
+  void serialize(StateArchive& state) override { state(timer_); }
+
+ private:
+  void add_extra_joints(const ControllerContext& context);
+
+  std::vector<const JointHandle*> joints_;
+  devices::JointStateReading
+      reading_;  // joints of the hardware first, then those that never change
+  PublishTimer timer_;
+  devices::Output& output_;
+};
 
 JointStateController::JointStateController(const ControllerContext& context)
     : timer_(context.settings.number("publish_rate")),
@@ -67,21 +96,10 @@ void JointStateController::add_extra_joints(const ControllerContext& context) {
   }
 }
 
-void JointStateController::start(TimeNs now_ns) {
-  constexpr double kPeriodsAgo = 1.001;  // the first update publishes
-  const bool publishes = timer_.rate_hz() > 0.0;
-  timer_.start(publishes ? now_ns - nanoseconds(kPeriodsAgo / timer_.rate_hz()) : now_ns);
-}
+}  // namespace
 
-void JointStateController::update(TimeNs now_ns, double /*period_s*/, devices::ReadingSink& sink) {
-  if (!timer_.due(now_ns) || !output_.demanded) return;
-  reading_.header.stamp_ns = now_ns;
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    reading_.positions[i] = joints_[i]->position;
-    reading_.velocities[i] = joints_[i]->velocity;
-    reading_.efforts[i] = joints_[i]->effort;
-  }
-  sink.on_reading(output_, reading_);
+std::unique_ptr<Controller> make_joint_state(const ControllerContext& context) {
+  return std::make_unique<JointStateController>(context);
 }
 
 }  // namespace ardee::control

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/mecanum_drive_controller.h"
-
+#include <array>
 #include <cmath>
 
+#include "ardee_sim/controllers/controller_types.h"
+#include "ardee_sim/controllers/drive_controller.h"
+#include "ardee_sim/controllers/speed_limiter.h"
 #include "ardee_sim/controllers/wheel_geometry.h"
 
 namespace ardee::control {
@@ -23,11 +25,60 @@ double read_separation(const ControllerContext& context, const std::string& key,
   return positive(std::abs(apart[axis]), given);
 }
 
-}  // namespace
+/// mecanum_drive_controller/MecanumDriveController: four wheels with rollers at 45 degrees.
+class MecanumDriveController : public DriveController {
+ public:
+  explicit MecanumDriveController(const ControllerContext& context);
 
-std::unique_ptr<Controller> MecanumDriveController::make(const ControllerContext& context) {
-  return std::make_unique<MecanumDriveController>(context);
-}
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override {
+    update_odometry(now_ns);
+    publish_odometry(now_ns, sink);
+    const Twist wanted = twist_at(now_ns);
+    const double forward = forward_.limit(wanted.linear.x(), period_s);
+    const double left = left_.limit(wanted.linear.y(), period_s);
+    const double turn = turn_.limit(wanted.angular.z(), period_s) * lever_m_;
+    wheels_[kFrontLeft]->command = (forward - left - turn) / radius_m_;
+    wheels_[kBackLeft]->command = (forward + left - turn) / radius_m_;
+    wheels_[kBackRight]->command = (forward - left + turn) / radius_m_;
+    wheels_[kFrontRight]->command = (forward + left + turn) / radius_m_;
+  }
+  void reset(TimeNs now_ns) override {
+    DriveController::reset(now_ns);
+    forward_.reset();
+    left_.reset();
+    turn_.reset();
+  }
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(forward_, left_, turn_);
+  }
+
+ private:
+  enum Wheel { kFrontLeft, kBackLeft, kBackRight, kFrontRight, kWheelCount };
+
+  void brake() override {
+    for (JointHandle* wheel : wheels_) wheel->command = 0.0;
+  }
+  void update_odometry(TimeNs now_ns) {
+    const double front_left = wheels_[kFrontLeft]->velocity;
+    const double back_left = wheels_[kBackLeft]->velocity;
+    const double back_right = wheels_[kBackRight]->velocity;
+    const double front_right = wheels_[kFrontRight]->velocity;
+    const double quarter_m = radius_m_ / 4.0;
+    odometry().add_velocity(
+        {quarter_m * (front_left + back_left + back_right + front_right),
+         quarter_m * (-front_left + back_left - back_right + front_right),
+         quarter_m / lever_m_ * (-front_left - back_left + back_right + front_right)},
+        now_ns);
+  }
+
+  std::array<JointHandle*, kWheelCount> wheels_{};
+  double radius_m_;
+  double lever_m_;  // half of the sum of the wheels' separations
+  SpeedLimiter forward_;
+  SpeedLimiter left_;
+  SpeedLimiter turn_;
+};
 
 MecanumDriveController::MecanumDriveController(const ControllerContext& context)
     : DriveController(context, context.settings.text("odom_frame_id", "odom")),
@@ -45,41 +96,10 @@ MecanumDriveController::MecanumDriveController(const ControllerContext& context)
   }
 }
 
-void MecanumDriveController::brake() {
-  for (JointHandle* wheel : wheels_) wheel->command = 0.0;
-}
+}  // namespace
 
-void MecanumDriveController::update_odometry(TimeNs now_ns) {
-  const double front_left = wheels_[kFrontLeft]->velocity;
-  const double back_left = wheels_[kBackLeft]->velocity;
-  const double back_right = wheels_[kBackRight]->velocity;
-  const double front_right = wheels_[kFrontRight]->velocity;
-  const double quarter_m = radius_m_ / 4.0;
-  odometry().add_velocity(
-      {quarter_m * (front_left + back_left + back_right + front_right),
-       quarter_m * (-front_left + back_left - back_right + front_right),
-       quarter_m / lever_m_ * (-front_left - back_left + back_right + front_right)},
-      now_ns);
-}
-
-void MecanumDriveController::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
-  update_odometry(now_ns);
-  publish_odometry(now_ns, sink);
-  const Twist wanted = twist_at(now_ns);
-  const double forward = forward_.limit(wanted.linear.x(), period_s);
-  const double left = left_.limit(wanted.linear.y(), period_s);
-  const double turn = turn_.limit(wanted.angular.z(), period_s) * lever_m_;
-  wheels_[kFrontLeft]->command = (forward - left - turn) / radius_m_;
-  wheels_[kBackLeft]->command = (forward + left - turn) / radius_m_;
-  wheels_[kBackRight]->command = (forward - left + turn) / radius_m_;
-  wheels_[kFrontRight]->command = (forward + left + turn) / radius_m_;
-}
-
-void MecanumDriveController::reset(TimeNs now_ns) {
-  DriveController::reset(now_ns);
-  forward_.reset();
-  left_.reset();
-  turn_.reset();
+std::unique_ptr<Controller> make_mecanum_drive(const ControllerContext& context) {
+  return std::make_unique<MecanumDriveController>(context);
 }
 
 }  // namespace ardee::control

@@ -52,18 +52,14 @@ void Pid::reset() {
 }
 
 devices::ParameterGroup Pid::tuning(const std::string& name) {
+  using Tunable = devices::TunableParameter;
   constexpr double kMostP = 1e5;
   constexpr double kMostD = 1e3;
   const auto number = [this](const char* gain, const char* description, double PidGains::*member,
                              double low, double high) {
-    return devices::TunableParameter{gain,
-                                     description,
-                                     devices::TunableParameter::Type::kDouble,
-                                     low,
-                                     high,
-                                     gains_.*member,
-                                     [this, member] { return gains_.*member; },
-                                     [this, member](double value) { gains_.*member = value; }};
+    const auto get = [this, member] { return gains_.*member; };
+    const auto set = [this, member](double value) { gains_.*member = value; };
+    return Tunable{gain, description, Tunable::Type::kDouble, low, high, get(), get, set};
   };
   return {name,
           {number("p", "Proportional gain.", &PidGains::p, -kMostP, kMostP),
@@ -73,7 +69,7 @@ devices::ParameterGroup Pid::tuning(const std::string& name) {
                   -kMostP, 0.0),
            number("i_clamp_max", "Max bounds for the integral windup", &PidGains::i_clamp_max, 0.0,
                   kMostP),
-           {"antiwindup", "Antiwindup.", devices::TunableParameter::Type::kBool, 0.0, 1.0,
+           {"antiwindup", "Antiwindup.", Tunable::Type::kBool, 0.0, 1.0,
             gains_.antiwindup ? 1.0 : 0.0, [this] { return gains_.antiwindup ? 1.0 : 0.0; },
             [this](double value) { gains_.antiwindup = value != 0.0; }}}};
 }

@@ -37,7 +37,6 @@ class Pid {
   void serialize(StateArchive& state) { state(gains_, last_error_, integral_); }
 
   const PidGains& gains() const { return gains_; }
-  void set_gains(const PidGains& gains) { gains_ = gains; }
   void restore_gains() { gains_ = initial_gains_; }
   /// The gains as a dynamic_reconfigure group. The Pid outlives it.
   devices::ParameterGroup tuning(const std::string& name);

@@ -5,25 +5,6 @@
 
 namespace ardee::control {
 
-std::unique_ptr<Controller> PidController::make_effort_position(const ControllerContext& context) {
-  return std::make_unique<PidController>(context, JointInterface::kEffort, Quantity::kPosition,
-                                         JointCount::kOne);
-}
-std::unique_ptr<Controller> PidController::make_effort_velocity(const ControllerContext& context) {
-  return std::make_unique<PidController>(context, JointInterface::kEffort, Quantity::kVelocity,
-                                         JointCount::kOne);
-}
-std::unique_ptr<Controller> PidController::make_effort_group_position(
-    const ControllerContext& context) {
-  return std::make_unique<PidController>(context, JointInterface::kEffort, Quantity::kPosition,
-                                         JointCount::kGroup);
-}
-std::unique_ptr<Controller> PidController::make_velocity_position(
-    const ControllerContext& context) {
-  return std::make_unique<PidController>(context, JointInterface::kVelocity, Quantity::kPosition,
-                                         JointCount::kOne);
-}
-
 PidController::PidController(const ControllerContext& context, JointInterface interface,
                              Quantity quantity, JointCount count)
     : quantity_(quantity) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <vector>
 
 #include "ardee_sim/controllers/forward_controller.h"
@@ -16,11 +15,6 @@ namespace ardee::control {
 class PidController : public Controller {
  public:
   enum class Quantity { kPosition, kVelocity };
-
-  static std::unique_ptr<Controller> make_effort_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_effort_velocity(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_effort_group_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_velocity_position(const ControllerContext& context);
 
   PidController(const ControllerContext& context, JointInterface interface, Quantity quantity,
                 JointCount count);

@@ -50,15 +50,6 @@ Waypoint waypoint(const devices::JointTrajectoryPoint& point, std::size_t place)
 
 }  // namespace
 
-std::unique_ptr<Controller> TrajectoryController::make_position(const ControllerContext& context) {
-  return std::make_unique<TrajectoryController>(context, JointInterface::kPosition);
-}
-std::unique_ptr<Controller> TrajectoryController::make_velocity(const ControllerContext& context) {
-  return std::make_unique<TrajectoryController>(context, JointInterface::kVelocity);
-}
-std::unique_ptr<Controller> TrajectoryController::make_effort(const ControllerContext& context) {
-  return std::make_unique<TrajectoryController>(context, JointInterface::kEffort);
-}
 std::unique_ptr<Controller> TrajectoryController::make_pos_vel(const ControllerContext& context) {
   throw lacking(context, "hardware_interface::PosVelJointInterface");
 }

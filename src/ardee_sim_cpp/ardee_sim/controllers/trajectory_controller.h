@@ -19,9 +19,6 @@ namespace ardee::control {
 /// desired velocity.
 class TrajectoryController : public Controller {
  public:
-  static std::unique_ptr<Controller> make_position(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_velocity(const ControllerContext& context);
-  static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
   /// {pos_vel, pos_vel_acc}_controllers/JointTrajectoryController need interfaces that the
   /// simulated hardware lacks, here as in Gazebo. Throws Error.
   static std::unique_ptr<Controller> make_pos_vel(const ControllerContext& context);

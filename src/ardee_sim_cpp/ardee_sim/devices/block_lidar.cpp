@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/devices/block_lidar.h"
-
 #include <cmath>
+#include <string>
 
+#include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/ray_sensor.h"
 
 namespace ardee::devices {
+namespace {
 
-std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor, Parameters& keys,
-                                         std::size_t link, DeviceContext& context) {
-  Params params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
-  params.frame = resolve_frame(keys.text("frameName", "/world"), plugin_namespace(keys, context),
-                               context);  // the only laser without the namespace there
-  const double coordinate_std = read_gaussian_noise(keys);
-  const double rate_hz = read_rate_hz(sensor, keys, 0.0);
-  keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads and ignores it
-  const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
-  return std::make_unique<BlockLidar>(sensor.name, mount, params, coordinate_std, context.scenes);
-}
+/// A lidar over a grid of angles that gives sensor_msgs/PointCloud, row by row, with one unnamed
+/// channel of intensities. Each beam has a point; by REP 117 the coordinates of a point without a
+/// range are all +inf (nothing within the maximum) or all -inf (nearer than the minimum).
+class BlockLidar : public RaySensor {
+ public:
+  BlockLidar(const std::string& name, const Mount& mount, const Params& params,
+             double coordinate_std, RaySceneProvider& scenes)
+      : RaySensor(name, mount, params, scenes, reading_kind<LegacyCloudReading>()),
+        coordinate_std_(coordinate_std) {}
 
-BlockLidar::BlockLidar(const std::string& name, const Mount& mount, const Params& params,
-                       double coordinate_std, RaySceneProvider& scenes)
-    : RaySensor(name, mount, params, scenes, reading_kind<LegacyCloudReading>()),
-      coordinate_std_(coordinate_std) {}
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+
+ private:
+  double coordinate_std_;
+};
 
 void BlockLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
   const std::vector<BeamEcho>& echoes = measure(noise);
@@ -45,6 +47,22 @@ void BlockLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sin
     cloud.channel.push_back(echo.intensity + error(3));
   }
   sink.on_reading(output(), cloud);
+}
+
+}  // namespace
+
+/// libgazebo_ros_block_laser.so; its <gaussianNoise> is added to each coordinate, and to the
+/// intensity.
+std::unique_ptr<Device> make_block_lidar(const SensorDescription& sensor, Parameters& keys,
+                                         std::size_t link, DeviceContext& context) {
+  BlockLidar::Params params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
+  params.frame = resolve_frame(keys.text("frameName", "/world"), plugin_namespace(keys, context),
+                               context);  // the only laser without the namespace there
+  const double coordinate_std = read_gaussian_noise(keys);
+  const double rate_hz = read_rate_hz(sensor, keys, 0.0);
+  keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads and ignores it
+  const Sensor::Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
+  return std::make_unique<BlockLidar>(sensor.name, mount, params, coordinate_std, context.scenes);
 }
 
 }  // namespace ardee::devices

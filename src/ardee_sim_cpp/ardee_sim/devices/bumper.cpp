@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/devices/bumper.h"
-
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "ardee_sim/core/nearest_names.h"
+#include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/sensor.h"
 
 namespace ardee::devices {
 namespace {
@@ -79,28 +82,49 @@ physics::Contact swapped(const physics::Contact& contact) {
   return made;
 }
 
-}  // namespace
+/// libgazebo_ros_bumper.so in a sensor of type contact: contacts of the collisions that the
+/// sensor's <contact> names. A message holds each step since the last one, as the stock plugin's
+/// does. Its vectors are in the world's axes; <frameName> does not change that.
+class Bumper : public Sensor {
+ public:
+  struct Params {
+    Mount mount;
+    std::set<std::string> collisions{};  // scoped names
+    std::string topic{};
+    std::string frame{};
+    WorldInfo world_info{};
+  };
 
-std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor, Parameters& parameters,
-                                     std::size_t link, DeviceContext& context) {
-  const std::string space = plugin_namespace(parameters, context);
-  Params params{{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed}};
-  params.collisions = read_collisions(sensor, link, context.robot);
-  params.topic = resolve_topic(parameters.text("bumperTopicName", "bumper_states"), space);
-  params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
-  params.world_info = context.world_info;
-  parameters.ignore({"alwaysOn", "updateRate"});
-  return std::make_unique<Bumper>(sensor.name, params);
-}
+  Bumper(const std::string& name, const Params& params)
+      : Sensor(name, params.mount),
+        params_(params),
+        output_(add_output(params.topic, reading_kind<ContactsReading>(), params.frame)) {}
 
-Bumper::Bumper(const std::string& name, const Params& params)
-    : Sensor(name, params.mount),
-      params_(params),
-      output_(add_output(params.topic, reading_kind<ContactsReading>(), params.frame)) {}
+  void observe(TimeNs /*now_ns*/) override {
+    if (output_.demanded) params_.world_info.want_contacts();
+  }
+  void reset(TimeNs now_ns) override {
+    Sensor::reset(now_ns);
+    touches_.clear();
+  }
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(touches_);
+  }
 
-void Bumper::observe(TimeNs /*now_ns*/) {
-  if (output_.demanded) params_.world_info.want_contacts();
-}
+ protected:
+  void follow(TimeNs now_ns) override;
+  void sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) override {
+    sink.on_reading(output_, ContactsReading{{now_ns, params_.frame}, std::move(touches_)});
+    touches_.clear();
+  }
+  bool wanted() const override { return output_.demanded; }
+
+ private:
+  Params params_;
+  Output& output_;
+  std::vector<ContactsReading::Touch> touches_;  // since the last sample
+};
 
 void Bumper::follow(TimeNs now_ns) {
   if (!output_.demanded) {
@@ -122,14 +146,18 @@ void Bumper::follow(TimeNs now_ns) {
   }
 }
 
-void Bumper::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {
-  sink.on_reading(output_, ContactsReading{{now_ns, params_.frame}, std::move(touches_)});
-  touches_.clear();
-}
+}  // namespace
 
-void Bumper::reset(TimeNs now_ns) {
-  Sensor::reset(now_ns);
-  touches_.clear();
+std::unique_ptr<Device> make_bumper(const SensorDescription& sensor, Parameters& parameters,
+                                    std::size_t link, DeviceContext& context) {
+  const std::string space = plugin_namespace(parameters, context);
+  Bumper::Params params{{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed}};
+  params.collisions = read_collisions(sensor, link, context.robot);
+  params.topic = resolve_topic(parameters.text("bumperTopicName", "bumper_states"), space);
+  params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
+  params.world_info = context.world_info;
+  parameters.ignore({"alwaysOn", "updateRate"});
+  return std::make_unique<Bumper>(sensor.name, params);
 }
 
 }  // namespace ardee::devices

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/devices/joint_state_publisher.h"
-
 #include <algorithm>
 #include <sstream>
+#include <vector>
 
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -20,10 +21,46 @@ std::vector<std::string> split_at_commas(std::string list) {
   return names;
 }
 
+/// libgazebo_ros_joint_state_publisher.so: positions and velocities of the named joints on
+/// joint_states; no effort, no frame, as in the stock plugin. Without a namespace of its own or of
+/// the spawn it publishes below the model's name.
+class JointStatePublisher : public Device {
+ public:
+  JointStatePublisher(const std::string& name, const std::string& topic,
+                      std::vector<std::size_t> joints, double rate_hz, Robot& robot)
+      : Device(name),
+        joints_(std::move(joints)),
+        robot_(robot),
+        timer_(rate_hz),
+        output_(add_output(topic, reading_kind<JointStateReading>(), rate_hz, "")) {}
+
+  void after_step(TimeNs now_ns, ReadingSink& sink) override {
+    if (!timer_.due(now_ns) || !output_.demanded) return;
+    JointStateReading reading;
+    reading.header.stamp_ns = now_ns;
+    for (const std::size_t joint : joints_) {
+      reading.names.push_back(robot_.model().joints[joint].name);
+      const bool moves =
+          robot_.is_dynamic() && robot_.model().joints[joint].type != JointType::kFixed;
+      reading.positions.push_back(moves ? robot_.dynamics().joint_position(joint) : 0.0);
+      reading.velocities.push_back(moves ? robot_.dynamics().joint_velocity(joint) : 0.0);
+    }
+    sink.on_reading(output_, reading);
+  }
+  void reset(TimeNs now_ns) override { timer_.start_at(now_ns + 1); }
+  void serialize(StateArchive& state) override { state(timer_); }
+
+ private:
+  std::vector<std::size_t> joints_;
+  Robot& robot_;
+  RateTimer timer_;
+  Output& output_;
+};
+
 }  // namespace
 
-std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugin,
-                                                  Parameters& parameters, DeviceContext& context) {
+std::unique_ptr<Device> make_joint_state_publisher(const PluginDescription& plugin,
+                                                   Parameters& parameters, DeviceContext& context) {
   std::string space = plugin_namespace(parameters, context);
   if (space.empty() && !parameters.has("robotNamespace")) space = context.robot.name();
   std::vector<std::size_t> joints;
@@ -35,30 +72,5 @@ std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugi
   return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
                                                std::move(joints), rate_hz, context.robot);
 }
-
-JointStatePublisher::JointStatePublisher(const std::string& name, const std::string& topic,
-                                         std::vector<std::size_t> joints, double rate_hz,
-                                         Robot& robot)
-    : Device(name),
-      joints_(std::move(joints)),
-      robot_(robot),
-      timer_(rate_hz),
-      output_(add_output(topic, reading_kind<JointStateReading>(), rate_hz, "")) {}
-
-void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
-  if (!timer_.due(now_ns) || !output_.demanded) return;
-  JointStateReading reading;
-  reading.header.stamp_ns = now_ns;
-  for (const std::size_t joint : joints_) {
-    reading.names.push_back(robot_.model().joints[joint].name);
-    const bool moves =
-        robot_.is_dynamic() && robot_.model().joints[joint].type != JointType::kFixed;
-    reading.positions.push_back(moves ? robot_.dynamics().joint_position(joint) : 0.0);
-    reading.velocities.push_back(moves ? robot_.dynamics().joint_velocity(joint) : 0.0);
-  }
-  sink.on_reading(output_, reading);
-}
-
-void JointStatePublisher::reset(TimeNs now_ns) { timer_.start_at(now_ns + 1); }
 
 }  // namespace ardee::devices

@@ -1,14 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/devices/mimic_joint.h"
-
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
 namespace {
 
-Coupling mimic_coupling(Parameters& parameters, DeviceContext& context) {
+/// libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another. The plugin sets the
+/// follower's position; here a load on either joint acts on both.
+class MimicJoint : public Device {
+ public:
+  MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)
+      : Device(name), coupling_(coupling), robot_(robot) {
+    reset(0);
+  }
+
+  void reset(TimeNs /*now_ns*/) override { robot_.dynamics().couple_joints(coupling_); }
+
+ private:
+  Coupling coupling_;
+  Robot& robot_;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> make_mimic_joint(const PluginDescription& plugin, Parameters& parameters,
+                                         DeviceContext& context) {
   plugin_namespace(parameters, context);
   const auto joint = [&](const char* key) {
     const std::string name = parameters.required_text(key);
@@ -31,22 +50,7 @@ Coupling mimic_coupling(Parameters& parameters, DeviceContext& context) {
     context.log.warn(parameters.source(),
                      "found <sensitiveness>, expected none or 0: the joint follows exactly");
   }
-  return coupling;
+  return std::make_unique<MimicJoint>(plugin.name, coupling, context.robot);
 }
-
-}  // namespace
-
-std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, Parameters& parameters,
-                                         DeviceContext& context) {
-  return std::make_unique<MimicJoint>(plugin.name, mimic_coupling(parameters, context),
-                                      context.robot);
-}
-
-MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)
-    : Device(name), coupling_(coupling), robot_(robot) {
-  reset(0);
-}
-
-void MimicJoint::reset(TimeNs /*now_ns*/) { robot_.dynamics().couple_joints(coupling_); }
 
 }  // namespace ardee::devices

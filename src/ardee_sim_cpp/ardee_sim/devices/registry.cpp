@@ -6,31 +6,9 @@
 #include <tuple>
 
 #include "ardee_sim/core/nearest_names.h"
-#include "ardee_sim/devices/battery.h"
-#include "ardee_sim/devices/block_lidar.h"
-#include "ardee_sim/devices/bumper.h"
 #include "ardee_sim/devices/camera_sensor.h"
-#include "ardee_sim/devices/diff_drive.h"
-#include "ardee_sim/devices/encoder.h"
-#include "ardee_sim/devices/force_torque.h"
-#include "ardee_sim/devices/gazebo_imu.h"
 #include "ardee_sim/devices/gps.h"
-#include "ardee_sim/devices/gps_with_dropout.h"
-#include "ardee_sim/devices/ground_truth.h"
-#include "ardee_sim/devices/hector_imu.h"
-#include "ardee_sim/devices/joint_position.h"
-#include "ardee_sim/devices/joint_state_publisher.h"
-#include "ardee_sim/devices/lidar.h"
-#include "ardee_sim/devices/link_force.h"
-#include "ardee_sim/devices/link_push.h"
-#include "ardee_sim/devices/magnetometer.h"
-#include "ardee_sim/devices/mimic_joint.h"
-#include "ardee_sim/devices/planar_move.h"
-#include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
-#include "ardee_sim/devices/torsional_spring.h"
-#include "ardee_sim/devices/tricycle_drive.h"
-#include "ardee_sim/devices/velodyne_lidar.h"
 
 namespace ardee::devices {
 namespace {
@@ -218,29 +196,29 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
 Registry builtin_registry() {
   using raycast::SceneKind;
   Registry registry;
-  registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
-  registry.add_model_plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", MimicJoint::make);
-  registry.add_model_plugin("libgazebo_mimic_joint_plugin.so", MimicJoint::make);
+  registry.add_model_plugin("libardee_ros_joint_position.so", make_joint_position);
+  registry.add_model_plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", make_mimic_joint);
+  registry.add_model_plugin("libgazebo_mimic_joint_plugin.so", make_mimic_joint);
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
-  registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
-  registry.add_model_plugin("libgazebo_ros_force.so", LinkPush::make);
-  registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
-  registry.add_model_plugin("libgazebo_ros_planar_move.so", PlanarMove::make);
+  registry.add_model_plugin("libgazebo_ros_diff_drive.so", make_diff_drive);
+  registry.add_model_plugin("libgazebo_ros_force.so", make_link_push);
+  registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", make_joint_state_publisher);
+  registry.add_model_plugin("libgazebo_ros_planar_move.so", make_planar_move);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
-  registry.add_model_plugin("libgazebo_ros_tricycle_drive.so", TricycleDrive::make);
-  registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
-  registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
-  registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
-  registry.add_model_sensor("libgazebo_ros_f3d.so", LinkForce::make);
-  registry.add_model_sensor("libgazebo_ros_ft_sensor.so", ForceTorqueSensor::make);
-  registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", GpsWithDropout::make);
-  registry.add_model_sensor("libgazebo_ros_imu.so", GazeboImu::make_on_model);
-  registry.add_model_sensor("libgazebo_ros_p3d.so", GroundTruth::make);
+  registry.add_model_plugin("libgazebo_ros_tricycle_drive.so", make_tricycle_drive);
+  registry.add_model_plugin("libTorsionalSpringPlugin.so", make_torsional_spring);
+  registry.add_model_sensor("libardee_ros_battery.so", make_battery);
+  registry.add_model_sensor("libardee_ros_encoder.so", make_encoder);
+  registry.add_model_sensor("libgazebo_ros_f3d.so", make_link_force);
+  registry.add_model_sensor("libgazebo_ros_ft_sensor.so", make_force_torque);
+  registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", make_gps_with_dropout);
+  registry.add_model_sensor("libgazebo_ros_imu.so", make_imu_on_model);
+  registry.add_model_sensor("libgazebo_ros_p3d.so", make_ground_truth);
   registry.add_model_sensor("libhector_gazebo_ros_gps.so", Gps::make);
-  registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
-  registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
-  registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
-  registry.add_sensor_plugin("libgazebo_ros_bumper.so", Bumper::make);
+  registry.add_model_sensor("libhector_gazebo_ros_imu.so", make_hector_imu);
+  registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", make_magnetometer);
+  registry.add_sensor_plugin("libgazebo_ros_block_laser.so", make_block_lidar);
+  registry.add_sensor_plugin("libgazebo_ros_bumper.so", make_bumper);
   registry.add_sensor_plugin("libgazebo_ros_camera.so", with(CameraSensor::make, CameraPlugin{}));
   registry.add_sensor_plugin("libgazebo_ros_depth_camera.so",
                              with(CameraSensor::make, CameraPlugin{CameraKind::kDepth}));
@@ -254,15 +232,15 @@ Registry builtin_registry() {
   registry.add_sensor_plugin(
       "libgazebo_ros_triggered_multicamera.so",
       with(CameraSensor::make, CameraPlugin{CameraKind::kColor, true, true}));
-  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", with(Lidar::make, SceneKind::kVisual));
-  registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
-  registry.add_sensor_plugin("libgazebo_ros_laser.so", with(Lidar::make, SceneKind::kCollision));
-  registry.add_sensor_plugin("libgazebo_ros_range.so", RangeFinder::make_range);
+  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", with(make_lidar, SceneKind::kVisual));
+  registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", make_imu_on_sensor);
+  registry.add_sensor_plugin("libgazebo_ros_laser.so", with(make_lidar, SceneKind::kCollision));
+  registry.add_sensor_plugin("libgazebo_ros_range.so", make_range_finder);
   registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so",
-                             with(VelodyneLidar::make, SceneKind::kVisual));
+                             with(make_velodyne_lidar, SceneKind::kVisual));
   registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so",
-                             with(VelodyneLidar::make, SceneKind::kCollision));
-  registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
+                             with(make_velodyne_lidar, SceneKind::kCollision));
+  registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", make_sonar);
   for (const PluginAlias& alias : builtin_aliases()) registry.add_alias(alias);
   return registry;
 }

@@ -9,6 +9,7 @@
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/plugin_aliases.h"
 
 namespace ardee::devices {
@@ -16,12 +17,9 @@ namespace ardee::devices {
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
  public:
-  /// Factories read the plugin's keys from the Parameters that they are given; keys that they do
-  /// not read are warnings.
-  using ModelPlugin =
-      std::function<std::unique_ptr<Device>(const PluginDescription&, Parameters&, DeviceContext&)>;
-  using SensorPlugin = std::function<std::unique_ptr<Device>(const SensorDescription&, Parameters&,
-                                                             std::size_t link, DeviceContext&)>;
+  /// Keys that a maker does not read are warnings.
+  using ModelPlugin = std::function<MakeOnModel>;
+  using SensorPlugin = std::function<MakeOnSensor>;
 
   /// Adds a controller, which the robot requires.
   void add_model_plugin(const std::string& filename, ModelPlugin make);

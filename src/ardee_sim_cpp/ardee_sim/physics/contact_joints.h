@@ -79,7 +79,7 @@ class ContactJoints {
   dWorldID world_;
   JointGroupHandle group_;
   std::size_t count_ = 0;
-  std::vector<ContactPoint> points_;
+  ContactPoints points_;
   bool told_ = false;
   std::deque<Told> to_tell_;  // the engine keeps addresses in it
 };

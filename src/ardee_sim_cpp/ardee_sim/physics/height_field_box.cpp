@@ -20,7 +20,7 @@ Vector3d corner(const Box& box, int index) {
 /// Points between the ends of an edge touch only if the ground rises above the line between the
 /// ground points under the ends.
 void touch_edge(const HeightField& field, const Vector3d& start, const Vector3d& end,
-                GroundContacts& contacts) {
+                ContactPoints& contacts) {
   Vector3d normal;
   const double start_below_m = depth_below(field, start, normal);
   const double end_below_m = depth_below(field, end, normal);
@@ -52,11 +52,11 @@ bool is_peak(const HeightField& field, int column, int row, const CellRange& all
 }
 
 /// A peak inside the box leaves it by the nearest of the downward faces.
-void touch_peak(const Pose& X_FB, const Box& box, const Vector3d& peak, GroundContacts& contacts) {
+void touch_peak(const Pose& X_FB, const Box& box, const Vector3d& peak, ContactPoints& contacts) {
   const Vector3d local = X_FB.inverse() * peak;
   const Vector3d inside = 0.5 * box.size_m - local.cwiseAbs();
   if (inside.minCoeff() <= 0.0) return;
-  GroundContact best{peak, Vector3d::UnitZ(), 0.0};
+  ContactPoint best{peak, Vector3d::UnitZ(), 0.0};
   bool found = false;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d direction = X_FB.q * Vector3d::Unit(axis);
@@ -74,7 +74,7 @@ void touch_peak(const Pose& X_FB, const Box& box, const Vector3d& peak, GroundCo
 }  // namespace
 
 void collide_box(const HeightField& field, const Pose& X_FB, const Box& box,
-                 GroundContacts& contacts) {
+                 ContactPoints& contacts) {
   const Eigen::Matrix3d R_FB = X_FB.q.toRotationMatrix();
   const Vector3d reach = 0.5 * R_FB.cwiseAbs() * box.size_m;
   const Vector3d low = X_FB.p - reach, high = X_FB.p + reach;

@@ -49,10 +49,10 @@ struct Circle {
 
 /// Depth of the deepest point of a circle found so far.
 struct CircleContacts {
-  GroundContacts contacts;
+  ContactPoints contacts;
   double deepest_m = 0.0;
 
-  void add(const GroundContact& contact) {
+  void add(const ContactPoint& contact) {
     add_contact(contact, contacts);
     deepest_m = std::max(deepest_m, contact.depth_m);
   }
@@ -150,7 +150,7 @@ CircleContacts touch_circle(const HeightField& field, const Circle& circle) {
 }
 
 void collide_on_end(const HeightField& field, const Pose& X_FC, const Cylinder& cylinder,
-                    const Vector3d& axis, GroundContacts& contacts) {
+                    const Vector3d& axis, ContactPoints& contacts) {
   const double end = axis.z() > 0.0 ? -0.5 * cylinder.length_m : 0.5 * cylinder.length_m;
   for (int i = 0; i < kRimPoints; ++i) {
     const double angle = 2.0 * M_PI * i / kRimPoints;
@@ -164,8 +164,8 @@ void collide_on_end(const HeightField& field, const Pose& X_FC, const Cylinder& 
 
 }  // namespace
 
-void add_contact(const GroundContact& contact, GroundContacts& contacts) {
-  for (const GroundContact& other : contacts) {
+void add_contact(const ContactPoint& contact, ContactPoints& contacts) {
+  for (const ContactPoint& other : contacts) {
     if ((other.position - contact.position).squaredNorm() < kSamePoint * kSamePoint) return;
   }
   contacts.push_back(contact);
@@ -178,14 +178,14 @@ double depth_below(const HeightField& field, const Vector3d& point, Vector3d& no
   return triangle->height(point.x(), point.y()) - point.z();
 }
 
-void add_point(const HeightField& field, const Vector3d& point, GroundContacts& contacts) {
+void add_point(const HeightField& field, const Vector3d& point, ContactPoints& contacts) {
   Vector3d normal;
   const double below_m = depth_below(field, point, normal);
   if (below_m > 0.0) add_contact({point, normal, below_m * normal.z()}, contacts);
 }
 
 void collide_sphere(const HeightField& field, const Vector3d& center, double radius_m,
-                    GroundContacts& contacts) {
+                    ContactPoints& contacts) {
   const auto under = field.triangle_at(center.x(), center.y());
   if (under && under->height(center.x(), center.y()) >= center.z()) {
     const double below_m = under->normal.dot(under->a - center);
@@ -220,7 +220,7 @@ void collide_sphere(const HeightField& field, const Vector3d& center, double rad
 }
 
 void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder& cylinder,
-                      GroundContacts& contacts) {
+                      ContactPoints& contacts) {
   const Vector3d axis = X_FC.q * Vector3d::UnitZ();
   if (std::abs(axis.z()) > kOnEnd) {
     collide_on_end(field, X_FC, cylinder, axis, contacts);
@@ -231,19 +231,19 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
   const CircleContacts middle = touch_circle(field, {X_FC.p, axis, cylinder.radius_m});
   const CircleContacts right = touch_circle(field, {X_FC.p + half, axis, cylinder.radius_m});
   for (const auto* circle : {&left, &right}) {
-    for (const GroundContact& contact : circle->contacts) add_contact(contact, contacts);
+    for (const ContactPoint& contact : circle->contacts) add_contact(contact, contacts);
   }
   const auto ends = static_cast<double>(contacts.size());
-  for (const GroundContact& contact : middle.contacts) add_contact(contact, contacts);
+  for (const ContactPoint& contact : middle.contacts) add_contact(contact, contacts);
   const bool is_ridge = middle.deepest_m > 0.5 * (left.deepest_m + right.deepest_m) + kRimRidge;
   if (is_ridge || ends == 0.0) return;
-  for (GroundContact& contact : contacts) {
+  for (ContactPoint& contact : contacts) {
     contact.share = ends / static_cast<double>(contacts.size());
   }
 }
 
 void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
-                      const VertexTree& vertices, GroundContacts& contacts) {
+                      const VertexTree& vertices, ContactPoints& contacts) {
   const Eigen::Matrix3d turn = X_FV.q.toRotationMatrix();
   const Eigen::Matrix3d spread = turn.cwiseAbs();
   const auto may_touch = [&](const Eigen::AlignedBox3f& box) {
@@ -262,7 +262,7 @@ void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
   });
 }
 
-void reduce_contacts(GroundContacts& contacts, std::size_t max_contacts) {
+void reduce_contacts(ContactPoints& contacts, std::size_t max_contacts) {
   if (contacts.size() <= max_contacts) return;
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const auto& a, const auto& b) { return a.depth_m > b.depth_m; });

@@ -6,7 +6,6 @@
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/description/bounds.h"
-#include "ardee_sim/physics/joints/joint_kinds.h"
 
 namespace ardee::physics {
 namespace {

@@ -8,7 +8,7 @@
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/joint_drive.h"
-#include "ardee_sim/physics/joints/joint_kind.h"
+#include "ardee_sim/physics/joint_kind.h"
 #include "ardee_sim/physics/ode_types.h"
 
 namespace ardee::physics {

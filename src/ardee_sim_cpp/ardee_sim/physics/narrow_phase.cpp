@@ -5,8 +5,6 @@
 #include <array>
 #include <optional>
 
-#include "ardee_sim/physics/height_field_contacts.h"
-
 namespace ardee::physics {
 namespace {
 
@@ -23,9 +21,9 @@ Pose geom_pose(dGeomID geom) {
 }
 
 /// The middle of a lying cylinder replaces its ends if few contacts are wanted.
-void keep_nearest(const Eigen::Vector3d& center, int max_contacts, GroundContacts& contacts) {
+void keep_nearest(const Eigen::Vector3d& center, int max_contacts, ContactPoints& contacts) {
   const auto nearest = std::min_element(
-      contacts.begin(), contacts.end(), [&center](const GroundContact& a, const GroundContact& b) {
+      contacts.begin(), contacts.end(), [&center](const ContactPoint& a, const ContactPoint& b) {
         return (a.position - center).squaredNorm() < (b.position - center).squaredNorm();
       });
   if (nearest == contacts.end()) return;
@@ -42,7 +40,7 @@ struct OnField {
   const Pose& X_FS;
   double shrink;
   int max_contacts;
-  GroundContacts& contacts;
+  ContactPoints& contacts;
 
   void operator()(const Sphere& sphere) const {
     collide_sphere(field, X_FS.p, shape.scale * shrink * sphere.radius_m, contacts);
@@ -65,16 +63,16 @@ struct OnField {
 };
 
 void collide_field(const CollisionShape& shape, const CollisionShape& ground, int max_contacts,
-                   std::vector<ContactPoint>& points) {
+                   ContactPoints& points) {
   if (!shape.geom) return;
   const double shrink = 1.0 / ground.scale;
   Pose X_FS = ground.X_WS.inverse() * geom_pose(shape.geom.get());
   X_FS.p *= shrink;
-  GroundContacts contacts;
+  ContactPoints contacts;
   std::visit(OnField{shape, *ground.field, X_FS, shrink, max_contacts, contacts},
              shape.collision->geometry);
   reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
-  for (const GroundContact& contact : contacts) {
+  for (const ContactPoint& contact : contacts) {
     points.push_back({ground.X_WS * (ground.scale * contact.position),
                       ground.X_WS.q * contact.normal, ground.scale * contact.depth_m,
                       contact.share});
@@ -84,7 +82,7 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
 /// The deepest vertices of a mesh below a plane, spread out: of too many, ODE would take the first
 /// that it finds.
 void collide_plane(const CollisionShape& shape, dGeomID plane, int max_contacts,
-                   std::vector<ContactPoint>& points) {
+                   ContactPoints& points) {
   dVector4 equation;
   dGeomPlaneGetParams(plane, equation);
   const Eigen::Vector3d normal = to_vector(equation);
@@ -92,7 +90,7 @@ void collide_plane(const CollisionShape& shape, dGeomID plane, int max_contacts,
   const Eigen::Vector3d normal_S = X_WS.q.conjugate() * normal;
   const double height_m = equation[3] - normal.dot(X_WS.p);
   const Eigen::Vector3d spread = normal_S.cwiseAbs();
-  GroundContacts contacts;
+  ContactPoints contacts;
   shape.mesh->tree->visit(
       [&](const Eigen::AlignedBox3f& box) {
         return normal_S.dot(box.center().cast<double>()) -
@@ -105,12 +103,10 @@ void collide_plane(const CollisionShape& shape, dGeomID plane, int max_contacts,
         if (depth_m > 0.0) contacts.push_back({X_WS * point, normal, depth_m});
       });
   reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
-  for (const GroundContact& contact : contacts) {
-    points.push_back({contact.position, contact.normal, contact.depth_m});
-  }
+  points.insert(points.end(), contacts.begin(), contacts.end());
 }
 
-void collide_geoms(dGeomID a, dGeomID b, int max_contacts, std::vector<ContactPoint>& points) {
+void collide_geoms(dGeomID a, dGeomID b, int max_contacts, ContactPoints& points) {
   std::array<dContactGeom, kMaxPoints> found;
   const int count = dCollide(a, b, std::min(max_contacts, kMaxPoints), found.data(),
                              static_cast<int>(sizeof(dContactGeom)));
@@ -125,8 +121,7 @@ bool is_cylinder(const CollisionShape& shape) {
 }
 
 /// Contacts of the two ends of a lying cylinder, or nothing if it does not lie.
-std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
-                                      const std::vector<ContactPoint>& points) {
+std::optional<ContactPoint> middle_of(const CollisionShape& cylinder, const ContactPoints& points) {
   const Pose X_WS = geom_pose(cylinder.geom.get());
   const Eigen::Vector3d axis = X_WS.q * Eigen::Vector3d::UnitZ();
   const ContactPoint *low = nullptr, *high = nullptr;
@@ -149,7 +144,7 @@ std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
 /// width; if fewer contacts are wanted, it replaces all. Together they are as stiff as the two ends
 /// alone.
 void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b, int max_contacts,
-                            std::vector<ContactPoint>& points) {
+                            ContactPoints& points) {
   collide_geoms(a, b, std::max(max_contacts, kLeastOfCylinder), points);
   const auto most = static_cast<std::size_t>(max_contacts);
   auto middle = middle_of(cylinder, points);
@@ -168,7 +163,7 @@ void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b
 }  // namespace
 
 void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_contacts,
-                    std::vector<ContactPoint>& points) {
+                    ContactPoints& points) {
   if (max_contacts < 1) return;
   if (b.field) {
     collide_field(a, b, max_contacts, points);

@@ -16,7 +16,7 @@ bool touch(const DynamicModel::Shape& a, const DynamicModel::Shape& b) {
   const Surface& other = b.shape.collision->surface;
   if (!meet(one, other) || is_forceless(one, other)) return false;
   if (!geom_bounds(a.shape.geom.get()).intersects(geom_bounds(b.shape.geom.get()))) return false;
-  std::vector<ContactPoint> points;
+  ContactPoints points;
   collide_shapes(a.shape, b.shape, 1, points);
   return !points.empty();
 }

@@ -5,7 +5,7 @@
 #include "ardee_sim/readers/assets.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/sdf_reader.h"
-#include "ardee_sim/readers/urdf_reader.h"
+#include "ardee_sim/readers/urdf.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>

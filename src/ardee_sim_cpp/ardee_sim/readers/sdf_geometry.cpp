@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_geometry.h"
-
 #include <algorithm>
 
 #include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/description/shape_fault.h"
 #include "ardee_sim/readers/mesh_reader.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 namespace {

@@ -4,9 +4,8 @@
 #include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
-#include "ardee_sim/readers/sdf_link.h"
+#include "ardee_sim/readers/sdf_parts.h"
 #include "ardee_sim/readers/sdf_reader.h"
-#include "ardee_sim/readers/sdf_scene.h"
 
 namespace ardee {
 namespace {

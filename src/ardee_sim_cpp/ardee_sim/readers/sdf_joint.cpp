@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_joint.h"
-
 #include <cmath>
 #include <map>
 
 #include "ardee_sim/description/bounds.h"
+#include "ardee_sim/readers/sdf_parts.h"
 #include "ardee_sim/readers/validate.h"
 
 namespace ardee {

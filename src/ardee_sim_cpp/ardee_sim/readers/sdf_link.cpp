@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_link.h"
-
 #include <cmath>
 #include <string>
 
 #include "ardee_sim/description/bounds.h"
 #include "ardee_sim/description/parameters.h"
-#include "ardee_sim/readers/sdf_geometry.h"
-#include "ardee_sim/readers/sdf_material.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 namespace {

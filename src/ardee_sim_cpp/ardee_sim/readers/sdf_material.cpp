@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_material.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 

@@ -6,10 +6,8 @@
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/realsense.h"
 #include "ardee_sim/readers/schema.h"
-#include "ardee_sim/readers/sdf_joint.h"
-#include "ardee_sim/readers/sdf_link.h"
+#include "ardee_sim/readers/sdf_parts.h"
 #include "ardee_sim/readers/sdf_reader.h"
-#include "ardee_sim/readers/sdf_scene.h"
 #include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/validate.h"
 

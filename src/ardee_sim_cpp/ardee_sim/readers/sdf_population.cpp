@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_population.h"
-
 #include <cmath>
 
 #include "ardee_sim/core/rng.h"
 #include "ardee_sim/readers/limits.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 namespace {

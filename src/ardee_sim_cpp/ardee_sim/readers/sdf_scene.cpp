@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_scene.h"
-
 #include "ardee_sim/description/bounds.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 namespace {

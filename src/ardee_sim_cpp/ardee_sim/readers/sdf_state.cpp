@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/sdf_state.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/readers/sdf_parts.h"
 
 namespace ardee {
 namespace {

@@ -4,11 +4,8 @@
 #include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
-#include "ardee_sim/readers/sdf_link.h"
-#include "ardee_sim/readers/sdf_population.h"
+#include "ardee_sim/readers/sdf_parts.h"
 #include "ardee_sim/readers/sdf_reader.h"
-#include "ardee_sim/readers/sdf_scene.h"
-#include "ardee_sim/readers/sdf_state.h"
 
 namespace ardee {
 namespace {

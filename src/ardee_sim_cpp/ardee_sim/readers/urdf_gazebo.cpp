@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_gazebo.h"
-
 #include <functional>
 #include <map>
 #include <unordered_map>
 
 #include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/schema.h"
-#include "ardee_sim/readers/sdf_joint.h"
-#include "ardee_sim/readers/sdf_link.h"
-#include "ardee_sim/readers/sdf_material.h"
+#include "ardee_sim/readers/sdf_parts.h"
+#include "ardee_sim/readers/urdf.h"
 
 namespace ardee {
 namespace {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_joint.h"
-
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/bounds.h"
-#include "ardee_sim/readers/urdf_link.h"
+#include "ardee_sim/readers/urdf.h"
 
 namespace ardee {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_link.h"
-
 #include <cmath>
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/description/shape_fault.h"
-#include "ardee_sim/readers/sdf_geometry.h"
+#include "ardee_sim/readers/sdf_parts.h"
+#include "ardee_sim/readers/urdf.h"
 
 namespace ardee {
 namespace {

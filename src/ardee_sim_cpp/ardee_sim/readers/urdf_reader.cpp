@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_reader.h"
-
 #include <algorithm>
 #include <unordered_map>
 
 #include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/realsense.h"
 #include "ardee_sim/readers/schema.h"
-#include "ardee_sim/readers/urdf_gazebo.h"
-#include "ardee_sim/readers/urdf_joint.h"
-#include "ardee_sim/readers/urdf_link.h"
-#include "ardee_sim/readers/urdf_transmission.h"
-#include "ardee_sim/readers/urdf_tree.h"
+#include "ardee_sim/readers/urdf.h"
 #include "ardee_sim/readers/validate.h"
 
 namespace ardee {

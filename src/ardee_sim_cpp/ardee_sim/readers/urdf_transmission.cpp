@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_transmission.h"
+#include "ardee_sim/readers/urdf.h"
 
 namespace ardee {
 namespace {

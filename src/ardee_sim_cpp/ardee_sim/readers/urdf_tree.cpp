@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/urdf_tree.h"
-
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
+
+#include "ardee_sim/readers/urdf.h"
 
 namespace ardee {
 namespace {

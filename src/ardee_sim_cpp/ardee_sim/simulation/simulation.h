@@ -13,11 +13,10 @@
 #include "ardee_sim/devices/registry.h"
 #include "ardee_sim/simulation/entity.h"
 #include "ardee_sim/simulation/handles.h"
-#include "ardee_sim/simulation/joint_efforts.h"
 #include "ardee_sim/simulation/ray_scene_set.h"
 #include "ardee_sim/simulation/simulation_state.h"
+#include "ardee_sim/simulation/timed_commands.h"
 #include "ardee_sim/simulation/world_camera_renderer.h"
-#include "ardee_sim/simulation/wrenches.h"
 
 namespace ardee {
 
@@ -167,8 +166,8 @@ class Simulation {
                  const std::string& reference);
   /// Wrenches on links and efforts on joints for a limited time; a reset of the world or of the
   /// model ends them.
-  Wrenches& wrenches() { return wrenches_; }
-  JointEfforts& joint_efforts() { return joint_efforts_; }
+  TimedCommands<Wrench>& wrenches() { return wrenches_; }
+  TimedCommands<JointEffort>& joint_efforts() { return joint_efforts_; }
   /// Requests the contacts of the coming step.
   void want_contacts() { physics_.want_contacts(); }
   /// The contacts of the last step, if they were requested.
@@ -219,8 +218,8 @@ class Simulation {
   physics::PhysicsWorld physics_;
   RaySceneSet scenes_;
   WorldCameraRenderer pictures_;
-  Wrenches wrenches_;
-  JointEfforts joint_efforts_;
+  TimedCommands<Wrench> wrenches_;
+  TimedCommands<JointEffort> joint_efforts_;
   std::vector<std::unique_ptr<Entity>>
       entities_;  // destroyed before the objects that their devices refer to
   std::map<std::string, Entity*> by_name_;  // the order in which they act and measure

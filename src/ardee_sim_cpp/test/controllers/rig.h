@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ardee_sim/controllers/controller.h"
+#include "ardee_sim/controllers/controller_types.h"
 #include "ardee_sim/core/error.h"
 
 namespace ardee::control {
@@ -90,19 +90,19 @@ class Rig : public ReadingSink {
     model.joints.push_back(turning);
   }
 
-  using Make = std::unique_ptr<Controller> (*)(const ControllerContext&);
-  void make(Make maker, const Parameters& parameters) {
+  void make(const std::string& type, const Parameters& parameters) {
     settings = settings_of(parameters);
-    controller = maker({"base", "/", settings, model, hardware, sensors, log});
+    controller =
+        controller_types().at(type)({"base", "/", settings, model, hardware, sensors, log});
   }
-  void start(Make maker, const Parameters& parameters) {
-    make(maker, parameters);
+  void start(const std::string& type, const Parameters& parameters) {
+    make(type, parameters);
     controller->start(now_ns);
     controller->set_running(true);
   }
-  /// Returns the message of the exception that the maker throws.
-  std::string refusal(Make maker, const Parameters& parameters) {
-    return message_of([&] { make(maker, parameters); });
+  /// Returns the message of the exception that its construction throws.
+  std::string refusal(const std::string& type, const Parameters& parameters) {
+    return message_of([&] { make(type, parameters); });
   }
   void update() {
     now_ns += kStepNs;

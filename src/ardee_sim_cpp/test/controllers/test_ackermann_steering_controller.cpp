@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/ackermann_steering_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -15,7 +14,9 @@ class AckermannSteeringController : public testing::Test {
     parameters["wheel_radius"] = 0.25;
     parameters["cmd_vel_timeout"] = 100.0;
   }
-  void start() { rig.start(&control::AckermannSteeringController::make, parameters); }
+  void start() {
+    rig.start("ackermann_steering_controller/AckermannSteeringController", parameters);
+  }
   /// Drives for 2 s at 1 m/s, with the wheel and the steering as commanded.
   const OdometryReading& drive(double steer_rad) {
     rig.drive(1.0, steer_rad);
@@ -81,7 +82,7 @@ TEST_F(AckermannSteeringController, TakesSizesFromTheDescription) {
   EXPECT_NEAR(rig.command_of("rear_wheel_joint"), 2.0, 1e-12);
   EXPECT_NEAR(odometry.twist.angular.z(), 0.5 / 4.0, 1e-9);
   rig.model.links[0].collisions[0].geometry = Sphere{0.5};
-  EXPECT_EQ(rig.refusal(&control::AckermannSteeringController::make, parameters),
+  EXPECT_EQ(rig.refusal("ackermann_steering_controller/AckermannSteeringController", parameters),
             "/base/wheel_radius: found nothing, and link 'rear_wheel_joint_link' has no collision "
             "of a cylinder to take it from");
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/diff_drive_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -18,8 +17,10 @@ class DiffDriveController : public testing::Test {
     parameters["wheel_separation"] = 0.5;
     parameters["wheel_radius"] = 0.1;
   }
-  void start() { rig.start(&control::DiffDriveController::make, parameters); }
-  std::string refusal() { return rig.refusal(&control::DiffDriveController::make, parameters); }
+  void start() { rig.start("diff_drive_controller/DiffDriveController", parameters); }
+  std::string refusal() {
+    return rig.refusal("diff_drive_controller/DiffDriveController", parameters);
+  }
   const OdometryReading& odometry() { return rig.last<OdometryReading>("/base/odom"); }
   void expect_wheels(double left, double right) {
     EXPECT_NEAR(rig.command_of("l1"), left, 1e-9);
@@ -214,7 +215,7 @@ TEST_F(DiffDriveController, AsksForOnePublisherWhereItIsTold) {
 }
 
 TEST_F(DiffDriveController, TakesNoCommandWhileItStandsOrThatIsNotFinite) {
-  rig.make(&control::DiffDriveController::make, parameters);
+  rig.make("diff_drive_controller/DiffDriveController", parameters);
   EXPECT_EQ(message_of([&] { rig.drive(1.0, 0.0); }),
             "found a command while the controller is not running");
   start();

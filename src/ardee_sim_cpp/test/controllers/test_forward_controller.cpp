@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/forward_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -8,17 +7,18 @@ namespace {
 TEST(ForwardController, HoldsAPositionAndBeginsOthersAtZero) {
   struct Case {
     JointInterface interface;
-    Rig::Make make;
+    const char* type;
     double at_start;
   };
-  for (const Case& each : {Case{JointInterface::kPosition, ForwardController::make_position, 0.7},
-                           Case{JointInterface::kVelocity, ForwardController::make_velocity, 0.0},
-                           Case{JointInterface::kEffort, ForwardController::make_effort, 0.0}}) {
+  for (const Case& each :
+       {Case{JointInterface::kPosition, "position_controllers/JointPositionController", 0.7},
+        Case{JointInterface::kVelocity, "velocity_controllers/JointVelocityController", 0.0},
+        Case{JointInterface::kEffort, "effort_controllers/JointEffortController", 0.0}}) {
     Rig rig;
     rig.add_joint("j", each.interface);
     rig.joint("j").position = 0.7;
     rig.joint("j").command = 9.0;
-    rig.start(each.make, {{"joint", std::string("j")}});
+    rig.start(each.type, {{"joint", std::string("j")}});
     rig.update();
     EXPECT_EQ(rig.command_of("j"), each.at_start);
     rig.send("/base/command", -2.5);
@@ -31,7 +31,7 @@ TEST(ForwardController, HoldsAPositionAndBeginsOthersAtZero) {
 TEST(ForwardController, ForgetsACommandThatCameBeforeItsStart) {
   Rig rig;
   rig.add_joint("j", JointInterface::kVelocity);
-  rig.make(ForwardController::make_velocity, {{"joint", std::string("j")}});
+  rig.make("velocity_controllers/JointVelocityController", {{"joint", std::string("j")}});
   rig.send("/base/command", 3.0);
   rig.controller->start(0);
   rig.update();
@@ -41,15 +41,16 @@ TEST(ForwardController, ForgetsACommandThatCameBeforeItsStart) {
 TEST(ForwardController, CommandsAGroupInItsOrder) {
   struct Case {
     JointInterface interface;
-    Rig::Make make;
+    const char* type;
   };
-  for (const Case& each : {Case{JointInterface::kPosition, ForwardController::make_group_position},
-                           Case{JointInterface::kVelocity, ForwardController::make_group_velocity},
-                           Case{JointInterface::kEffort, ForwardController::make_group_effort}}) {
+  for (const Case& each :
+       {Case{JointInterface::kPosition, "position_controllers/JointGroupPositionController"},
+        Case{JointInterface::kVelocity, "velocity_controllers/JointGroupVelocityController"},
+        Case{JointInterface::kEffort, "effort_controllers/JointGroupEffortController"}}) {
     Rig rig;
     rig.add_joint("a", each.interface);
     rig.add_joint("b", each.interface);
-    rig.start(each.make, {{"joints", names({"b", "a"})}});
+    rig.start(each.type, {{"joints", names({"b", "a"})}});
     rig.send("/base/command", std::vector<double>{1.0, 2.0});
     rig.update();
     EXPECT_EQ(rig.command_of("b"), 1.0);
@@ -70,19 +71,20 @@ TEST(ForwardController, CommandsAGroupInItsOrder) {
 TEST(ForwardController, SaysWhichParameterIsWrong) {
   Rig rig;
   rig.add_joint("j", JointInterface::kVelocity);
-  EXPECT_EQ(rig.refusal(ForwardController::make_velocity, {}),
+  EXPECT_EQ(rig.refusal("velocity_controllers/JointVelocityController", {}),
             "/base/joint: found nothing, expected a text");
-  EXPECT_EQ(rig.refusal(ForwardController::make_effort, {{"joint", std::string("j")}}),
+  EXPECT_EQ(rig.refusal("effort_controllers/JointEffortController", {{"joint", std::string("j")}}),
             "/base/joint: joint 'j' has the hardware_interface::VelocityJointInterface, expected "
             "the hardware_interface::EffortJointInterface");
-  EXPECT_EQ(rig.refusal(ForwardController::make_group_velocity, {{"joints", std::string("j")}}),
+  EXPECT_EQ(rig.refusal("velocity_controllers/JointGroupVelocityController",
+                        {{"joints", std::string("j")}}),
             "/base/joints: found 'j', expected a list of names");
 }
 
 TEST(ForwardController, GoesOnFromASavedState) {
   Rig rig;
   rig.add_joint("j", JointInterface::kVelocity);
-  rig.start(ForwardController::make_velocity, {{"joint", std::string("j")}});
+  rig.start("velocity_controllers/JointVelocityController", {{"joint", std::string("j")}});
   rig.send("/base/command", 3.0);
   rig.expect_repeats(5);
 }

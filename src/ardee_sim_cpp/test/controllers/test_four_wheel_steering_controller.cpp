@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/four_wheel_steering_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -34,7 +33,9 @@ class FourWheelSteeringController : public testing::Test {
       }
     }
   }
-  void start() { rig.start(&control::FourWheelSteeringController::make, parameters); }
+  void start() {
+    rig.start("four_wheel_steering_controller/FourWheelSteeringController", parameters);
+  }
   void steer(double front_rad, double rear_rad, double speed_m_per_s) {
     rig.send("/base/cmd_four_wheel_steering", SteeringCommand{front_rad, rear_rad, speed_m_per_s});
   }
@@ -180,7 +181,7 @@ TEST_F(FourWheelSteeringController, PublishesHowItIsSteered) {
 
 TEST_F(FourWheelSteeringController, SaysWhichParameterIsWrong) {
   parameters["rear_wheel"] = names({"rl"});
-  EXPECT_EQ(rig.refusal(&control::FourWheelSteeringController::make, parameters),
+  EXPECT_EQ(rig.refusal("four_wheel_steering_controller/FourWheelSteeringController", parameters),
             "/base/rear_wheel: found 1 joints, expected 2, left and right");
 }
 

@@ -3,7 +3,6 @@
 
 #include <limits>
 
-#include "ardee_sim/controllers/gripper_controller.h"
 #include "recorded_goal.h"
 
 namespace ardee::control {
@@ -23,7 +22,8 @@ class Gripper : public Rig {
       parameters["gains/finger/p"] = 100.0;
       parameters["gains/finger/d"] = 10.0;
     }
-    start(is_effort ? GripperController::make_effort : GripperController::make_position,
+    start(is_effort ? "effort_controllers/GripperActionController"
+                    : "position_controllers/GripperActionController",
           parameters);
   }
   Goal grip(double position, double max_effort) {

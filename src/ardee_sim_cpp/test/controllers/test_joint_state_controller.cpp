@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/joint_state_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -17,10 +16,10 @@ class JointStateController : public testing::Test {
     rig.joint("b").effort = 3.0;
   }
   void start(const Parameters& parameters) {
-    rig.start(&control::JointStateController::make, parameters);
+    rig.start("joint_state_controller/JointStateController", parameters);
   }
   std::string refusal(const Parameters& parameters) {
-    return rig.refusal(&control::JointStateController::make, parameters);
+    return rig.refusal("joint_state_controller/JointStateController", parameters);
   }
   static Setting::List extra_joint(const Setting::Value& position) {
     return {{"", Setting::Map{{"name", {"name", std::string("d")}}, {"position", {"", position}}}}};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/mecanum_drive_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -18,7 +17,7 @@ class MecanumDriveController : public testing::Test {
     parameters["wheel_radius"] = 0.1;
     parameters["cmd_vel_timeout"] = 100.0;
   }
-  void start() { rig.start(&control::MecanumDriveController::make, parameters); }
+  void start() { rig.start("mecanum_drive_controller/MecanumDriveController", parameters); }
   void drive(double forward, double left, double turn) {
     rig.send("/base/cmd_vel", Twist{{forward, left, 0.0}, {0.0, 0.0, turn}});
     rig.update();
@@ -86,7 +85,7 @@ TEST_F(MecanumDriveController, LimitsEachAxis) {
 
 TEST_F(MecanumDriveController, SaysWhichWheelIsMissing) {
   parameters.erase("back_right_wheel_joint");
-  EXPECT_EQ(rig.refusal(&control::MecanumDriveController::make, parameters),
+  EXPECT_EQ(rig.refusal("mecanum_drive_controller/MecanumDriveController", parameters),
             "/base/back_right_wheel_joint: found nothing, expected a text");
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/controllers/joint_error.h"
-#include "ardee_sim/controllers/pid_controller.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -47,7 +46,7 @@ class PidController : public testing::Test {
 TEST_F(PidController, BringsAPositionWithinItsLimits) {
   add_joint(JointInterface::kEffort, JointType::kRevolute);
   rig.joint("j").position = 0.25;
-  rig.start(&control::PidController::make_effort_position, parameters);
+  rig.start("effort_controllers/JointPositionController", parameters);
   rig.update();
   EXPECT_EQ(rig.command_of("j"), 0.0);  // it holds its place
   rig.send("/base/command", 5.0);
@@ -62,7 +61,7 @@ TEST_F(PidController, PublishesItsStateEachTenthUpdate) {
   parameters["pid/i"] = 3.0;
   parameters["pid/i_clamp"] = 2.0;
   parameters["pid/antiwindup"] = true;
-  rig.start(&control::PidController::make_effort_position, parameters);
+  rig.start("effort_controllers/JointPositionController", parameters);
   rig.joint("j").position = 0.5;
   rig.joint("j").velocity = 0.1;
   rig.send("/base/command", 5.0);
@@ -88,7 +87,7 @@ TEST_F(PidController, PublishesItsStateEachTenthUpdate) {
 
 TEST_F(PidController, TurnsAContinuousJointTheShortWay) {
   add_joint(JointInterface::kVelocity, JointType::kContinuous);
-  rig.start(&control::PidController::make_velocity_position, parameters);
+  rig.start("velocity_controllers/JointPositionController", parameters);
   rig.joint("j").position = 3.0;
   rig.send("/base/command", -3.0);  // the limits do not count here
   rig.update(2);
@@ -98,7 +97,7 @@ TEST_F(PidController, TurnsAContinuousJointTheShortWay) {
 TEST_F(PidController, BringsAVelocity) {
   add_joint(JointInterface::kEffort, JointType::kContinuous);
   rig.joint("j").velocity = 2.0;
-  rig.start(&control::PidController::make_effort_velocity, parameters);
+  rig.start("effort_controllers/JointVelocityController", parameters);
   rig.update(2);
   EXPECT_NEAR(rig.command_of("j"), -20.0, 1e-9);  // 0 before the first command
   rig.send("/base/command", 5.0);
@@ -110,7 +109,7 @@ TEST_F(PidController, BringsAVelocity) {
 TEST_F(PidController, BringsAGroupEachJointByItsOwnGains) {
   rig.add_joint("a", JointInterface::kEffort, JointType::kPrismatic);
   rig.add_joint("b", JointInterface::kEffort, JointType::kPrismatic);
-  rig.start(&control::PidController::make_effort_group_position,
+  rig.start("effort_controllers/JointGroupPositionController",
             {{"joints", names({"a", "b"})}, {"a/pid/p", 2.0}, {"b/pid/p", 3.0}});
   rig.send("/base/command", std::vector<double>{1.0, 1.0});
   rig.update();
@@ -122,7 +121,7 @@ TEST_F(PidController, BringsAGroupEachJointByItsOwnGains) {
 
 TEST_F(PidController, MayBeTunedUntilAReset) {
   add_joint(JointInterface::kEffort, JointType::kContinuous);
-  rig.start(&control::PidController::make_effort_velocity, parameters);
+  rig.start("effort_controllers/JointVelocityController", parameters);
   rig.tunable("p").set(1.0);
   rig.send("/base/command", 1.0);
   rig.update(2);
@@ -134,7 +133,7 @@ TEST_F(PidController, MayBeTunedUntilAReset) {
 TEST_F(PidController, SaysWhichParameterIsMissing) {
   add_joint(JointInterface::kEffort, JointType::kContinuous);
   parameters.erase("pid/p");
-  EXPECT_EQ(rig.refusal(&control::PidController::make_effort_position, parameters),
+  EXPECT_EQ(rig.refusal("effort_controllers/JointPositionController", parameters),
             "/base/pid/p: found nothing, expected a number");
 }
 
@@ -142,7 +141,7 @@ TEST_F(PidController, GoesOnFromASavedState) {
   add_joint(JointInterface::kVelocity, JointType::kRevolute);
   parameters["pid/i"] = 5.0;
   parameters["pid/i_clamp"] = 1.0;
-  rig.start(&control::PidController::make_velocity_position, parameters);
+  rig.start("velocity_controllers/JointPositionController", parameters);
   rig.send("/base/command", 0.8);
   rig.tunable("p").set(7.0);
   rig.roll(5);

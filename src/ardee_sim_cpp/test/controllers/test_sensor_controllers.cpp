@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/controllers/sensor_controllers.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -12,7 +11,7 @@ TEST(SensorControllers, PublishEachSensorByItsNameAtTheRate) {
   imu.frame = "base_link";
   imu.linear_acceleration = {0, 0, 9.8};
   imu.angular_velocity = {0, 0, 0.5};
-  rig.start(ImuSensorController::make, {{"publish_rate", 25.0}});
+  rig.start("imu_sensor_controller/ImuSensorController", {{"publish_rate", 25.0}});
   rig.update(100);  // 1 s
   EXPECT_EQ(rig.count("/base_imu"),
             24u);  // strictly later than last + 1 / rate: the last is due at 1.01 s
@@ -29,7 +28,7 @@ TEST(SensorControllers, WrenchesAreMeasuredOnceSomebodyPublishesThem) {
   wrist.frame = "hand";
   wrist.wrench.force = {0, 0, -3};
   EXPECT_FALSE(wrist.is_wanted);
-  rig.start(ForceTorqueSensorController::make, {{"publish_rate", 50}});
+  rig.start("force_torque_sensor_controller/ForceTorqueSensorController", {{"publish_rate", 50}});
   EXPECT_TRUE(wrist.is_wanted);
   rig.update(10);
   const auto& reading = rig.last<WrenchReading>("/wrist");
@@ -39,9 +38,9 @@ TEST(SensorControllers, WrenchesAreMeasuredOnceSomebodyPublishesThem) {
 
 TEST(SensorControllers, NeedARate) {
   Rig rig;
-  EXPECT_EQ(rig.refusal(ImuSensorController::make, {}),
+  EXPECT_EQ(rig.refusal("imu_sensor_controller/ImuSensorController", {}),
             "/base/publish_rate: found nothing, expected a number");
-  EXPECT_EQ(rig.refusal(ForceTorqueSensorController::make, {}),
+  EXPECT_EQ(rig.refusal("force_torque_sensor_controller/ForceTorqueSensorController", {}),
             "/base/publish_rate: found nothing, expected a number");
 }
 

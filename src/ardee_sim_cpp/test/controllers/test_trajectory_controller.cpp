@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "ardee_sim/controllers/trajectory_controller.h"
 #include "recorded_goal.h"
 
 namespace ardee::control {
@@ -17,7 +16,7 @@ class Arm : public Rig {
     add_joint("a", JointInterface::kPosition, type);
     add_joint("b", JointInterface::kPosition, type);
     parameters["joints"] = names({"a", "b"});
-    start(TrajectoryController::make_position, parameters);
+    start("position_controllers/JointTrajectoryController", parameters);
   }
 
   Goal follow(const FollowTrajectoryGoal& goal) {
@@ -88,7 +87,7 @@ TEST(TrajectoryController, CommandsAShareOfTheVelocityAndAPidOfTheError) {
   rig.add_joint("a", JointInterface::kEffort);
   const Parameters parameters{
       {"joints", names({"a"})}, {"velocity_ff/a", 3.0}, {"gains/a/p", 2.0}, {"gains/a/d", 0.5}};
-  rig.start(TrajectoryController::make_effort, parameters);
+  rig.start("effort_controllers/JointTrajectoryController", parameters);
   rig.send("/base/command", JointTrajectory{std::nullopt, {"a"}, {{{1}, {}, {}, {}, 1}}});
   rig.update(50);  // stuck at 0: the error is 0.5 rad, and 1 rad/s
   EXPECT_NEAR(rig.command_of("a"), 3.0 * 1.0 + 2.0 * 0.5 + 0.5 * 1.0, 1e-9);
@@ -290,14 +289,16 @@ TEST(TrajectoryController, AnswersWhereTheJointsWillBe) {
 TEST(TrajectoryController, RefusesWhatItCannotBeMadeWith) {
   Rig rig;
   rig.add_joint("a", JointInterface::kVelocity);
-  EXPECT_EQ(rig.refusal(TrajectoryController::make_position, {{"joints", names({"a"})}}),
-            "/base/joints: joint 'a' has the hardware_interface::VelocityJointInterface, expected "
-            "the hardware_interface::PositionJointInterface");
-  EXPECT_EQ(rig.refusal(TrajectoryController::make_velocity, {{"joints", names({"a"})}}),
-            "/base/gains/a/p: found nothing, expected a number");
-  EXPECT_EQ(rig.refusal(TrajectoryController::make_velocity, {{"joints", names({})}}),
+  EXPECT_EQ(
+      rig.refusal("position_controllers/JointTrajectoryController", {{"joints", names({"a"})}}),
+      "/base/joints: joint 'a' has the hardware_interface::VelocityJointInterface, expected "
+      "the hardware_interface::PositionJointInterface");
+  EXPECT_EQ(
+      rig.refusal("velocity_controllers/JointTrajectoryController", {{"joints", names({"a"})}}),
+      "/base/gains/a/p: found nothing, expected a number");
+  EXPECT_EQ(rig.refusal("velocity_controllers/JointTrajectoryController", {{"joints", names({})}}),
             "/base/joints: found none, expected some");
-  EXPECT_EQ(rig.refusal(TrajectoryController::make_pos_vel, {}),
+  EXPECT_EQ(rig.refusal("pos_vel_controllers/JointTrajectoryController", {}),
             "/base/type: found a controller that needs the "
             "hardware_interface::PosVelJointInterface, which the simulated hardware lacks, as "
             "gazebo_ros_control's DefaultRobotHWSim does, expected position_controllers/, "

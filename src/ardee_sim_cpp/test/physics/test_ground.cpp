@@ -107,7 +107,7 @@ TEST_P(Ground, WheelOverRidgesNeitherSinksNorJolts) {
   double deepest = 0.0, jolt = 0.0, previous = wheel.link_twist(0).linear.z();
   for (int i = 0; i < steps(world, 5.0); ++i) {
     world.step();
-    physics::GroundContacts contacts;
+    physics::ContactPoints contacts;
     const Pose X_FC = wheel.pose() * Pose::from_xyz_rpy({0, 0, 0}, {M_PI / 2, 0, 0});
     physics::collide_cylinder(field, X_FC, {0.097, 0.038}, contacts);
     for (const auto& contact : contacts) deepest = std::max(deepest, contact.depth_m);
@@ -152,7 +152,7 @@ TEST(GroundContacts, CylinderFacesAndRidgesInClosedForm) {
   const auto grid = height_grid(21, 2.0, [](double x, double) { return -std::abs(x); });
   const physics::HeightField field(grid);
   const Pose level = Pose::from_xyz_rpy({0, 0.02, 0.098}, {M_PI / 2, 0, 0});
-  physics::GroundContacts contacts;
+  physics::ContactPoints contacts;
   physics::collide_cylinder(field, level, {0.1, 0.04}, contacts);
   ASSERT_EQ(contacts.size(), 3u) << "both ends and the middle";
   for (const auto& contact : contacts) {
@@ -181,7 +181,7 @@ TEST(GroundContacts, DepthChangesSmoothlyWhileAWheelRollsOn) {
   double previous = -1.0, worst = 0.0;
   for (int i = 0; i < 20000; ++i) {
     const double x = -4.0 + 4e-4 * i, y = 0.3 * x;
-    physics::GroundContacts contacts;
+    physics::ContactPoints contacts;
     const double ground = 0.05 * std::sin(3.1 * x + 0.3) * std::cos(2.3 * y + 0.7);
     const Pose pose = Pose::from_xyz_rpy({x, y, ground + 0.085}, {M_PI / 2, 0, 0.29});
     physics::collide_cylinder(field, pose, {0.097, 0.038}, contacts);

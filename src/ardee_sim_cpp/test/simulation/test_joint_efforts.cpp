@@ -17,7 +17,7 @@ struct Turret {
     return {world->find("turret")->robot.get(), 1, n_m, from_ms * kMillisecond_ns,
             for_ms * kMillisecond_ns};
   }
-  JointEfforts& efforts() { return world->joint_efforts(); }
+  TimedCommands<JointEffort>& efforts() { return world->joint_efforts(); }
   Robot& robot() { return *world->find("turret")->robot; }
   void run(int steps) { world.run(steps * kStep_s); }
   double speed_rad_per_s() { return robot().dynamics().joint_velocity(1); }

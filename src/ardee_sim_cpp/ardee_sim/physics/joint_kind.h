@@ -71,6 +71,9 @@ class JointKind {
   virtual void push(const JointFrames& frames, const Eigen::Vector3d& effort_W) const;
 };
 
+/// |cos| up to which two axes count as at right angles.
+constexpr double kRightAngle = 1e-3;
+
 /// The kind of the joint's type. Throws Error, whose message begins with `what`, for a type without
 /// a counterpart in the physics engine.
 const JointKind& joint_kind(const Joint& joint, const std::string& what = "");
