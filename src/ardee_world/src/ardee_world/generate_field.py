@@ -194,7 +194,3 @@ def make_configured(values: Values, *, has_map: bool = True) -> Path:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_field --models corn_variant_1 ... --name my_field --output DIR`."""
     return run(make_parser(), make_field, arguments)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -209,7 +209,3 @@ def _make(args: argparse.Namespace) -> Path:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
     return run(make_parser(), _make, arguments)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())
