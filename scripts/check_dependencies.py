@@ -12,28 +12,14 @@ from typing import Iterator, List, Optional, Set, Tuple
 # The rosdep key, or the package of ours, of each module that has not its name.
 KEYS = {
     "ardee_sim": "ardee_sim_py",
-    "collada": "python3-collada",
     "cv2": "python3-opencv",
-    "dask": "python3-dask",
-    "distributed": "python3-distributed",
-    "ephem": "python3-ephem",
-    "gymnasium": "python3-gymnasium-pip",
-    "matplotlib": "python3-matplotlib",
     "mpl_toolkits": "python3-matplotlib",
-    "numpy": "python3-numpy",
     "PIL": "python3-pil",
-    "pyarrow": "python3-pyarrow-pip",
-    "pycocotools": "python3-pycocotools-pip",
-    "pyproj": "python3-pyproj",
-    "pytest": "python3-pytest",
-    "rasterio": "python3-rasterio",
-    "rospkg": "python3-rospkg",
-    "scipy": "python3-scipy",
-    "tqdm": "python3-tqdm",
-    "viser": "python3-viser-pip",
-    "websockets": "python3-websockets",
-    "yaml": "python3-yaml",
 }
+_APT = "collada dask distributed ephem matplotlib numpy pyproj pytest rasterio rospkg scipy tqdm websockets yaml"
+_PIP = "gymnasium pyarrow pycocotools viser"
+KEYS.update({name: f"python3-{name}" for name in _APT.split()})
+KEYS.update({name: f"python3-{name}-pip" for name in _PIP.split()})
 # What no package needs: an example that imports one says how to install it.
 OF_THE_USER = {"stable_baselines3", "torch"}
 

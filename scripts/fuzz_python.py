@@ -16,37 +16,9 @@ PACKAGES = ["ardee_common", *(file.parents[1].name for file in FILES)]
 
 # Values at the limits of numbers and of derived sizes, and words with a meaning in YAML.
 VALUES = (
-    b"",
-    b"0",
-    b"-1",
-    b"0.5",
-    b"1e-320",
-    b"1e9",
-    b"1e300",
-    b"1e309",
-    b".nan",
-    b".inf",
-    b"nan",
-    b"inf",
-    b"4294967296",
-    b"9223372036854775808",
-    b"99999999999999999999999",
-    b"true",
-    b"null",
-    b"2001-01-01",
-    b"0x10",
-    b"1_000",
-    b"12:30:45",
-    b"[]",
-    b"{}",
-    b"[1, 2]",
-    b"{a: 1}",
-    b"&a",
-    b"*a",
-    b"!!binary aaaa",
-    b"'",
-    b"#",
-)
+    b"|0|-1|0.5|1e-320|1e9|1e300|1e309|.nan|.inf|nan|inf|4294967296|9223372036854775808|99999999999999999999999"
+    b"|true|null|2001-01-01|0x10|1_000|12:30:45|[]|{}|[1, 2]|{a: 1}|&a|*a|!!binary aaaa|'|#"
+).split(b"|")
 
 
 def load(file: pathlib.Path) -> Dict[str, Callable[[bytes], None]]:

@@ -1,22 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Keeps sending threads from waiting: for other programs, for Python's lock and collector, for memory."""
+"""Keeps sending threads from waiting: for other programs, for Python's collector, for memory."""
 import contextlib
 import ctypes
 import gc
 import os
-import sys
-import threading
 
-# A computing thread lets another one run after this time, not after Python's 5 ms.
-SWITCH_INTERVAL_S = 0.0005
 # Parameters of mallopt(3), and the greatest value of the first; several frames at once fit the second.
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
 MOST_MMAP_THRESHOLD_BYTES, TRIM_THRESHOLD_BYTES = 32 << 20, 256 << 20
-
-
-def share_fairly() -> None:
-    """Prevents any thread of the process from keeping Python's lock for long."""
-    sys.setswitchinterval(SWITCH_INTERVAL_S)
 
 
 def keep_what_there_is() -> None:
@@ -44,22 +35,4 @@ def go_next() -> bool:
         os.setpriority(os.PRIO_PROCESS, 0, -20)
     except PermissionError:
         return False
-    return True
-
-
-def go_first(priority: int) -> bool:
-    """Runs all threads but this one before programs without real-time priority; returns False if not permitted.
-
-    All of them, because any may hold Python's lock; but not this one, which strangers' datagrams can keep busy.
-    Processes that the threads start have normal priority again.
-    """
-    policy, parameter = os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(priority)
-    for thread in map(int, os.listdir("/proc/self/task")):
-        try:
-            if thread != threading.get_native_id():
-                os.sched_setscheduler(thread, policy, parameter)
-        except ProcessLookupError:
-            pass  # the thread has ended
-        except PermissionError:
-            return False
     return True

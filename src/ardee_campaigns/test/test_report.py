@@ -14,6 +14,7 @@ from small_campaign import run, write
 
 from ardee_campaigns import tables
 from ardee_campaigns.__main__ import main
+from ardee_campaigns.plots import pyplot
 from ardee_campaigns.report import drives, figures, statistics
 from ardee_campaigns.report.runs import Runs, chosen, read
 from ardee_common.errors import GeneratorError
@@ -228,9 +229,7 @@ def test_a_run_campaign_is_reported_with_pictures(tmp_path: Path) -> None:
     text = (tmp_path / "out" / "report.md").read_text()
     row = min(tables.read_runs(tmp_path / "out").to_pylist(), key=lambda row: row["distance_m"])
     assert f"1. {row['run_id']}" in text and f"--replay {row['run_id']}" in text
-    picture = figures.matplotlib.image.imread(
-        str(tmp_path / "out" / "report_pictures" / "worst_1_pictures.png")
-    )
+    picture = pyplot.imread(str(tmp_path / "out" / "report_pictures" / "worst_1_pictures.png"))
     assert picture.shape[0] == 240 and picture.shape[1] > 3 * 320
     parts = [picture[:, place : place + 320, :3] for place in range(0, 3 * 324, 324)]
     assert all(part.std() > 0.05 for part in parts)  # something is seen

@@ -198,7 +198,3 @@ def main() -> int:
         if demo:
             demo.graph.close()
         shutil.rmtree(work, ignore_errors=True)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Plan of a campaign: combinations, replicates, and for each run an identity and a seed that follow from its inputs."""
+import contextlib
 import hashlib
 import itertools
 import json
@@ -121,7 +122,7 @@ class Planner:
         except GeneratorError as error:
             raise self._placed.error("measures", str(error)) from None
         for name, keys in campaign.worlds.items():
-            with self._at(self._placed["worlds"], name):
+            with _at(self._placed["worlds"], name):
                 self._files[name] = worlds.find_files(keys, folder)
                 for factors in self._field_factors(name):
                     worlds.check_options(keys, self._files[name], factors)
@@ -148,18 +149,15 @@ class Planner:
     def _probe(self, kind: str, name: str) -> Cell:
         return next(cell for cell in self.cells if getattr(cell, kind) == name)
 
-    def _at(self, mapping: Placed, key: str) -> "_Place":
-        return _Place(mapping, key)
-
     def _check_robots(self) -> None:
         """Spawns each robot once in an empty world, and makes each controller once for each of them."""
         for name, keys in self.campaign.robots.items():
             place = self._placed if "robots" not in self._placed else self._placed["robots"]
-            with self._at(place, name):
+            with _at(place, name):
                 told = robot.describe(name, keys, self.urdf(self._probe("robot", name)))
                 self._check_rate(told)
             for controller, wanted in self.campaign.controllers.items():
-                with self._at(self._placed["controllers"], controller):
+                with _at(self._placed["controllers"], controller):
                     for cell in self.cells:
                         if (cell.robot, cell.controller) == (name, controller):
                             self._try_out(wanted, cell, told)
@@ -220,19 +218,13 @@ class Planner:
         return Job(run_id, cell, replicate, seed, campaign, files, folder / f"{name}.urdf")
 
 
-class _Place:
-    """Puts file and line before an error's message."""
-
-    def __init__(self, mapping: Placed, key: str) -> None:
-        self._mapping, self._key = mapping, key
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: Any, error: Any, _trace: Any) -> None:
-        if isinstance(error, (GeneratorError, ValueError)):
-            text = " ".join(str(error).split())
-            raise self._mapping.error(self._key, f"{self._key}: {text}") from None
+@contextlib.contextmanager
+def _at(mapping: Placed, key: str) -> Iterator[None]:
+    """Puts file and line before the message of an error in the block."""
+    try:
+        yield
+    except (GeneratorError, ValueError) as error:
+        raise mapping.error(key, f"{key}: {' '.join(str(error).split())}") from None
 
 
 def about(campaign: Campaign) -> Mapping[str, str]:

@@ -3,6 +3,7 @@
 
 import argparse
 import contextlib
+import importlib
 import math
 import os
 import re
@@ -10,11 +11,11 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
+from typing import Any, Callable, Dict, Iterator, Mapping, NoReturn, Optional, Sequence
 
 from ardee_common.errors import GeneratorError, WorkersError, known_names
 from ardee_common.options import range_text
-from ardee_common.process import Ended, end_by_signals, end_if_told
+from ardee_common.process import Ended, end_by_signals, end_if_told, end_in_a_line
 
 PROGRESS_S = 3.0  # longest time that a command works without a word
 _CLEAR_LINE = "\r\033[K"  # of a terminal
@@ -172,6 +173,23 @@ def add_model_path(parser: Any) -> None:
 
 seed_number = whole_in(0)
 positive_number = _number(lambda value: value > 0.0, "a number above 0")
+
+
+def dispatch(
+    prog: str,
+    modules: Mapping[str, str],
+    description: str,
+    arguments: Optional[Sequence[str]] = None,
+) -> int:
+    """Runs the main(arguments) of the module whose command the first argument names; returns its exit code."""
+    words = sys.argv[1:] if arguments is None else arguments
+    parser = Parser(prog=prog, description=description)
+    parser.add_argument("command", metavar="COMMAND", help=", ".join(modules))
+    name = parser.parse_args(words[:1]).command
+    if name not in modules:
+        parser.error(f"unknown command {name!r}, {known_names(name, modules)}")
+    end_in_a_line(name)
+    return importlib.import_module(modules[name]).main(words[1:])
 
 
 def run(

@@ -197,7 +197,3 @@ def make_parser() -> argparse.ArgumentParser:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_dataset RECIPE.yaml --output DIR`."""
     return run(make_parser(), generate, arguments)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

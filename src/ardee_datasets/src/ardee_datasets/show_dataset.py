@@ -178,7 +178,3 @@ def make_parser() -> argparse.ArgumentParser:
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `show_dataset DIR`."""
     return run(make_parser(), show, arguments)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

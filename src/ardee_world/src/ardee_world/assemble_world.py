@@ -208,9 +208,9 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def main() -> int:
+def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the command; prints the path of the world file."""
-    return run(make_parser(), assemble)
+    return run(make_parser(), assemble, arguments)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import argparse
 import dataclasses
 import typing
 from pathlib import Path
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Sequence
 
 from ardee_common.cli import Parser, add_seed, run, say
 from ardee_common.errors import GeneratorError
@@ -191,10 +191,6 @@ def make_configured(values: Values, *, has_map: bool = True) -> Path:
     return write_field(layout, sources.name, parent, sources.format, terrain, has_map=has_map)
 
 
-def main() -> int:
+def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_field --models corn_variant_1 ... --name my_field --output DIR`."""
-    return run(make_parser(), make_field)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())
+    return run(make_parser(), make_field, arguments)

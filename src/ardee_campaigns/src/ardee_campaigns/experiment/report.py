@@ -163,12 +163,11 @@ class Report:
     def add(self, number: int, run: tables.RunFile) -> None:
         """Adds a run: its figures and samples, unless they are there, and the tables of all."""
         from ardee_campaigns.report import drives
-        from ardee_campaigns.report.figures import Drawn
 
         stem, samples = _stem(number), run.samples
         csv = self._folder / f"{stem}.csv"
         if len(samples) > 1 and not csv.is_file():
-            drawn = Drawn(run, f"{run.row.world}, run {number}, seed {run.row.seed}")
+            drawn = drives.Drawn(run, f"{run.row.world}, run {number}, seed {run.row.seed}")
             drives.perceived_distances(drawn, self._folder / f"{stem}_lidar.png")
             drives.errors(drawn, self._folder / f"{stem}_errors.png")
             columns = samples.select([name for name, _ in tables.SAMPLE_FIELDS])

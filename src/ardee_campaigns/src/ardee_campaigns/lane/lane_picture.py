@@ -3,15 +3,11 @@
 from pathlib import Path
 from typing import Optional
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
-
-from ardee_campaigns.lane.lane_figures import BEARING_DEG, RealLane, by_bearing  # noqa: E402
-from ardee_campaigns.lane.scans import Scans  # noqa: E402
+from ardee_campaigns.lane.lane_figures import BEARING_DEG, RealLane, by_bearing
+from ardee_campaigns.lane.scans import Scans
+from ardee_campaigns.plots import pyplot, save
 
 REAL, SIMULATED = "#d1495b", "#1f3b73"
 SHOWN_M = 2.5  # beside and before the lidar in the plan
@@ -72,6 +68,4 @@ def draw(
     bearing.set_title("all scans: median, 10th to 90th percentile", loc="left")
     bearing.legend(loc="upper right", fontsize="small")
     bearing.grid(alpha=0.3, which="both")
-    figure.tight_layout()
-    figure.savefig(path, dpi=110, metadata={"Software": None})
-    pyplot.close(figure)
+    save(figure, path)

@@ -3,14 +3,10 @@
 from pathlib import Path
 from typing import Sequence, Tuple
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
-
-from ardee_campaigns.overlay.look import Line, Looked  # noqa: E402
+from ardee_campaigns.overlay.look import Line, Looked
+from ardee_campaigns.plots import pyplot, save
 
 # Dark: raw returns, light: perceived distances; the thesis's green and blue
 REAL, SIMULATED = ("#1f6b3b", "#5fc46f"), ("#1f3b73", "#4fa3e0")
@@ -89,10 +85,3 @@ def distributions(path: Path, lines: Sequence[Line]) -> None:
         axes.set_ylabel("share of the values", fontsize="small")
     grid.flat[0].legend(fontsize="small")
     save(figure, path)
-
-
-def save(figure: pyplot.Figure, path: Path) -> None:
-    """Writes a figure without the software's version, so that the same content gives the same file."""
-    figure.tight_layout()
-    figure.savefig(path, dpi=110, metadata={"Software": None})
-    pyplot.close(figure)

@@ -1,62 +1,44 @@
 # SPDX-License-Identifier: MIT
 """Figures of a run: raw lidar and perceived distances along the row (form of thesis 5.6-5.8), and errors."""
 from pathlib import Path
-from typing import Protocol, Sequence
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
-
-from ardee_campaigns.measures import NEAR_M  # noqa: E402
+from ardee_campaigns import tables
+from ardee_campaigns.measures import NEAR_M
+from ardee_campaigns.plots import pyplot, save
 
 RAW, SEEN, TRUE, STEP_IN = "#1f3b73", "#4fa3e0", "#d1495b", "#e09f3e"
 LARGEST_POINTS = 40_000
 
 
-class Place(Protocol):
-    """Place of an intervention."""
+class Drawn:
+    """A run of a campaign as its figures want it."""
 
-    @property
-    def along_m(self) -> float:
-        """Returns the place along the row."""
-
-
-class Drive(Protocol):
-    """A drive down a row."""
-
-    length_m: float  # of the row
-    lidar_ahead_m: float  # of the robot's middle
-
-    @property
-    def title(self) -> str:
-        """Returns the name of the run."""
-
-    @property
-    def interventions(self) -> Sequence[Place]:
-        """Returns the places where a person stepped in."""
-
-    @property
-    def raw(self) -> Sequence[np.ndarray]:
-        """Returns the lidar's returns beside it, (n, 2) each: along m, lateral distance from the lidar m."""
+    def __init__(self, run: tables.RunFile, title: str) -> None:
+        self._samples, self.title = run.samples, title
+        self.length_m, self.lidar_ahead_m = run.about["length_m"], run.about["lidar_ahead_m"]
+        events = self._samples["event"].to_pylist()
+        along = self.column("along_m")
+        self.interventions_m = [place for place, event in zip(along, events) if event]
+        raw = (self._samples[name].combine_chunks().flatten() for name, _ in tables.RAW_FIELDS)
+        self.raw = np.column_stack([values.to_numpy() for values in raw])
 
     def column(self, name: str) -> np.ndarray:
-        """Returns one value of all samples."""
+        """Returns a column of the samples."""
+        return self._samples[name].to_numpy()
 
 
-def _step_ins(axes: pyplot.Axes, record: Drive, ahead_m: float = 0.0) -> None:
-    for number, step_in in enumerate(record.interventions):
+def _step_ins(axes: pyplot.Axes, record: Drawn, ahead_m: float = 0.0) -> None:
+    for number, along_m in enumerate(record.interventions_m):
         label = "a person steps in" if number == 0 else None
-        axes.axvline(step_in.along_m + ahead_m, color=STEP_IN, linewidth=1.0, label=label)
+        axes.axvline(along_m + ahead_m, color=STEP_IN, linewidth=1.0, label=label)
 
 
-def perceived_distances(record: Drive, path: Path) -> None:
+def perceived_distances(record: Drawn, path: Path) -> None:
     """Lateral distance from the lidar, left positive: returns abeam, lines in use, ideal rows."""
     figure, axes = pyplot.subplots(figsize=(10.0, 4.5))
-    raw = np.concatenate(record.raw) if record.raw else np.empty((0, 2))
-    raw = raw[:: max(len(raw) // LARGEST_POINTS, 1)]
+    raw = record.raw[:: max(len(record.raw) // LARGEST_POINTS, 1)]
     along = record.column("along_m") + record.lidar_ahead_m
     axes.plot(raw[:, 0], raw[:, 1], ".", color=RAW, markersize=1.5, alpha=0.5, label="raw lidar")
     for side, sign in (("left", 1.0), ("right", -1.0)):
@@ -73,10 +55,10 @@ def perceived_distances(record: Drive, path: Path) -> None:
     axes.set_title(record.title, loc="left")
     above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
     axes.legend(ncol=4, markerscale=4.0, fontsize="small", **above)
-    _save(figure, path)
+    save(figure, path)
 
 
-def errors(record: Drive, path: Path) -> None:
+def errors(record: Drawn, path: Path) -> None:
     """Lateral offset and heading from the lane's centre line."""
     figure, (top, bottom) = pyplot.subplots(2, 1, sharex=True, figsize=(10.0, 4.5))
     along = record.column("along_m")
@@ -90,11 +72,4 @@ def errors(record: Drive, path: Path) -> None:
         axes.axhline(0.0, color="grey", linewidth=0.5)
         _step_ins(axes, record)
     top.set_title(record.title, loc="left")
-    _save(figure, path)
-
-
-def _save(figure: pyplot.Figure, path: Path) -> None:
-    figure.tight_layout()
-    # without the software's version, so that the same run gives the same file
-    figure.savefig(path, dpi=110, metadata={"Software": None})
-    pyplot.close(figure)
+    save(figure, path)

@@ -1,48 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Pictures of a report: distributions, effects of factors, differences, and runs in the form of thesis 5.6 to 5.8."""
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, List, Sequence
 
-import matplotlib
+import numpy as np
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
-
-from ardee_campaigns import tables  # noqa: E402
-from ardee_campaigns.overlay.figures import save  # noqa: E402
-from ardee_campaigns.report import statistics  # noqa: E402
-from ardee_campaigns.report.runs import Runs, short, shown  # noqa: E402
-from ardee_campaigns.report.statistics import Difference  # noqa: E402
+from ardee_campaigns.plots import pyplot, save
+from ardee_campaigns.report import statistics
+from ardee_campaigns.report.runs import Runs, short, shown
+from ardee_campaigns.report.statistics import Difference
 
 COLORS = ("#1f3b73", "#d1495b", "#1f6b3b", "#e09f3e", "#6b4fa0", "#4fa3e0", "#8c564b", "#5fc46f")
 _COLUMNS = 4
-
-
-@dataclass(frozen=True)
-class StepIn:
-    """A time that a person stepped in."""
-
-    along_m: float
-
-
-class Drawn:
-    """A run of a campaign as the figures of a drive want it."""
-
-    def __init__(self, run: tables.RunFile, title: str) -> None:
-        self._samples, self.title = run.samples, title
-        self.length_m, self.lidar_ahead_m = run.about["length_m"], run.about["lidar_ahead_m"]
-        events = self._samples["event"].to_pylist()
-        along = self.column("along_m")
-        self.interventions = [StepIn(along[i]) for i, event in enumerate(events) if event]
-        raw = (self._samples[name].combine_chunks().flatten() for name, _ in tables.RAW_FIELDS)
-        self.raw = [np.column_stack([values.to_numpy() for values in raw])]
-
-    def column(self, name: str) -> np.ndarray:
-        """Returns a column of the samples."""
-        return self._samples[name].to_numpy()
 
 
 def _grid(count: int, height: float = 2.6) -> Any:

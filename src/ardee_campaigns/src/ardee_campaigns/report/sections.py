@@ -192,7 +192,7 @@ class Report:
         run = tables.read_run(self._folder, run_id)
         if replayer:
             self._strip(run, replayer, name)
-        drawn = figures.Drawn(run, run_id)
+        drawn = drives.Drawn(run, run_id)
         for draw, what, words in (
             (drives.perceived_distances, "distances", "Raw lidar and perceived distances"),
             (drives.errors, "errors", "Offset and heading from the lane's centre line"),

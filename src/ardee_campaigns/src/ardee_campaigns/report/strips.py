@@ -6,19 +6,15 @@ from pathlib import Path
 from typing import List, NamedTuple, Tuple
 
 import ardee_sim
-import matplotlib
+import numpy as np
+from matplotlib import image
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import image  # noqa: E402
-
-from ardee_campaigns import tables  # noqa: E402
-from ardee_campaigns.plan import Job  # noqa: E402
-from ardee_campaigns.robot import Driven  # noqa: E402
-from ardee_campaigns.run import sow  # noqa: E402
-from ardee_world.row_truth import Pose  # noqa: E402
-from ardee_world.trial import Trial  # noqa: E402
+from ardee_campaigns import tables
+from ardee_campaigns.plan import Job
+from ardee_campaigns.robot import Driven
+from ardee_campaigns.run import sow
+from ardee_world.row_truth import Pose
+from ardee_world.trial import Trial
 
 COUNT = 3  # pictures of a strip
 _SIZE_PX = (320, 240)

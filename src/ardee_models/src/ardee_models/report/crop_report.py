@@ -16,21 +16,7 @@ from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.plant.stages import SEASONS
 from ardee_models.plant.variants import load_variants
 from ardee_models.report.contact_sheet import draw_contact_sheet
-from ardee_models.report.ranges import MARKS, Check, check_metrics, load_ranges
-
-_COLUMNS = (
-    "model",
-    "species",
-    "stage",
-    "season",
-    "metric",
-    "value",
-    "min",
-    "max",
-    "within",
-    "mark",
-    "source",
-)
+from ardee_models.report.ranges import MARKS, check_metrics, load_ranges
 
 
 def read_metrics(model: Path) -> dict:
@@ -53,7 +39,7 @@ def _rows(models: Sequence[Path]) -> List[dict]:
     rows = []
     for model in models:
         metrics = read_metrics(model)
-        checks: List[Check] = check_metrics(metrics, ranges)
+        checks = check_metrics(metrics, ranges)
         if not checks:
             raise GeneratorError(
                 f"{model}: no range in the literature for {metrics['species']} {metrics['stage']}"
@@ -77,7 +63,7 @@ def _rows(models: Sequence[Path]) -> List[dict]:
 
 def _csv(rows: List[dict]) -> str:
     buffer = io.StringIO()
-    writer = csv.DictWriter(buffer, _COLUMNS, lineterminator="\n")
+    writer = csv.DictWriter(buffer, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
     return buffer.getvalue()

@@ -4,7 +4,7 @@
 import argparse
 import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import Any, Optional, Sequence
 
 import numpy as np
 
@@ -206,10 +206,6 @@ def _make(args: argparse.Namespace) -> Path:
     return path
 
 
-def main() -> int:
+def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
-    return run(make_parser(), _make)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())
+    return run(make_parser(), _make, arguments)

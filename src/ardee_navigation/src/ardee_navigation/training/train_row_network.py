@@ -109,7 +109,3 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         help="how often each picture is shown",
     )
     return run(parser, train, arguments)
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Writes plots.xacro of a Layout: the regions of the variable-accuracy GPS (thesis Listing A.7)."""
 
-from dataclasses import dataclass
-from typing import List
+from typing import Any, Dict, List
 
 import numpy as np
 
@@ -33,25 +32,8 @@ _PLOT = """  <plot>
 _TAIL = "</robot>\n"
 
 
-@dataclass(frozen=True)
-class PlotRegion:
-    """One plot for the GPS: the rectangle around its rows, half a row spacing wider on each side."""
-
-    plot_id: int
-    range_index: int  # along the rows
-    crossrange_index: int
-    x: float
-    y: float
-    z: float
-    rotation: float
-    row_count: int
-    row_width: float
-    row_length: float
-    average_height: float
-    average_density: float
-
-
-def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotRegion:
+def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> Dict[str, Any]:
+    """Returns the values of one plot: the rectangle around its rows, half a row spacing wider on each side."""
     chords = np.array([row.line_m[-1] - row.line_m[0] for row in rows])
     chord = chords.sum(axis=0)
     if np.linalg.norm(chord) < 1e-9:
@@ -70,9 +52,9 @@ def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotR
     heights = layout.height_m[members]
     area = width * len(rows) * length
     turn = np.arctan2(forward[1], forward[0]) + pose[2]
-    return PlotRegion(
+    return dict(
         plot_id=plot,
-        range_index=plot // plots.plots_x,
+        range_index=plot // plots.plots_x,  # along the rows
         crossrange_index=plot % plots.plots_x,
         x=float(world[0]),
         y=float(world[1]),
@@ -86,7 +68,7 @@ def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotR
     )
 
 
-def plot_regions(layout: Layout) -> List[PlotRegion]:
+def plot_regions(layout: Layout) -> List[Dict[str, Any]]:
     """Regions of all plots, cross rows of a headland counting as one."""
     by_plot: dict = {}
     for row in layout.planned.rows:
@@ -100,4 +82,4 @@ def plot_regions(layout: Layout) -> List[PlotRegion]:
 
 def plots_text(layout: Layout) -> str:
     """Text of plots.xacro."""
-    return _HEAD + "".join(_PLOT.format(**vars(r)) for r in plot_regions(layout)) + _TAIL
+    return _HEAD + "".join(_PLOT.format(**r) for r in plot_regions(layout)) + _TAIL
