@@ -9,7 +9,10 @@ from ardee_campaigns.report.runs import Runs, short, shown
 from ardee_campaigns.report.statistics import Interval
 from ardee_common.errors import GeneratorError, known_names
 
-HEADS = ("measure", "pairs", "mean of the first", "of the other", "difference", "95 % interval", "")
+HEADS = (
+    *("measure", "pairs", "fields", "mean of the first", "of the other"),
+    *("difference", "95 % interval", ""),
+)
 
 
 def three(value: float, sign: str = "") -> str:
@@ -61,7 +64,7 @@ def _rows(found: Sequence[statistics.Difference]) -> List[List[str]]:
     rows = []
     for one in found:
         pairs = "unpaired" if one.pairs is None else str(one.pairs)
-        cells = [one.measure, pairs, three(one.base), three(one.other)]
+        cells = [one.measure, pairs, str(one.fields), three(one.base), three(one.other)]
         rows.append([*cells, three(one.found.estimate, "+"), _span(one.found), _verdict(one.found)])
     return rows
 
@@ -73,7 +76,7 @@ def _span(found: Interval) -> str:
 def _verdict(found: Interval) -> str:
     """Returns whether the interval tells the sign of the difference."""
     if found.low != found.low:
-        return "too few runs"
+        return "too few fields"
     return "" if found.low <= 0.0 <= found.high else ("more" if found.low > 0.0 else "less")
 
 

@@ -114,25 +114,28 @@ def share_of_variance(runs: Runs, factor: str, measure: str) -> float:
 
 
 def slope(runs: Runs, factor: str, measure: str) -> Interval:
-    """Returns the slope of a measure over a factor's scale, and its interval."""
+    """Returns the mean slope of a measure over a factor's scale, and its interval over the fields.
+
+    Each field with three values or more has a fitted line; of fewer than two such fields the interval is unknown.
+    """
     finite = np.isfinite(runs[measure])
-    x, y = runs[factor][finite].astype(float), runs[measure][finite]
-    if len(set(x.tolist())) < 3:
-        return NONE
-    found = stats.linregress(x, y)
-    reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, len(x) - 2)) * found.stderr
-    return Interval(found.slope, found.slope - reach, found.slope + reach)
+    x, y, fields = runs[factor][finite].astype(float), runs[measure][finite], _fields(runs)[finite]
+    parts = [fields == field for field in set(fields.tolist())]
+    lines = [stats.linregress(x[part], y[part]) for part in parts if len(set(x[part])) > 2]
+    return mean(np.array([line.slope for line in lines]))
 
 
 class Difference(NamedTuple):
     """A level of a factor against the base level, in one measure.
 
     pairs : number of pairs of runs that are alike in all else, of the same seed; None if they are not paired
+    fields : number of fields in which they drove
     """
 
     level: Any
     measure: str
     pairs: Optional[int]
+    fields: int
     base: float  # mean
     other: float
     found: Interval  # other - base
@@ -141,7 +144,8 @@ class Difference(NamedTuple):
 def differences(runs: Runs, factor: str, base: Any) -> List[Difference]:
     """Returns each other level's difference from the base level in all measures.
 
-    Runs of different worlds have different seeds and are not paired: their interval is Welch's.
+    Runs in one field are alike, so each field counts once, with the means of its runs. Runs of different worlds have
+    different seeds and are not paired: their interval is Welch's.
     """
     made = []
     for level in runs.levels(factor):
@@ -153,8 +157,22 @@ def differences(runs: Runs, factor: str, base: Any) -> List[Difference]:
                 made.append(_paired(runs, level, measure, pairs))
             else:
                 one, other = (runs.where(runs[factor] == each) for each in (base, level))
-                made.append(_unpaired(level, measure, one[measure], other[measure]))
+                made.append(_unpaired(level, measure, one, other))
     return made
+
+
+def _fields(runs: Runs) -> np.ndarray:
+    """Returns the number of each run's field; runs of one world and seed have the same."""
+    keys = list(zip(runs["world"].tolist(), runs["seed"].tolist()))
+    numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+    return np.array([numbers[key] for key in keys], dtype=int)
+
+
+def _field_means(values: np.ndarray, fields: np.ndarray) -> np.ndarray:
+    """Returns the mean of each field's finite values, for those fields that have some."""
+    finite = np.isfinite(values)
+    values, fields = values[finite], fields[finite]
+    return np.array([values[fields == field].mean() for field in dict.fromkeys(fields.tolist())])
 
 
 def _all_else(runs: Runs, factor: str) -> List[Tuple[Any, ...]]:
@@ -179,23 +197,23 @@ def _pairs(runs: Runs, factor: str, base: Any, level: Any) -> np.ndarray:
 def _paired(runs: Runs, level: Any, measure: str, pairs: np.ndarray) -> Difference:
     one, other = (runs[measure][pairs[:, side]] for side in (0, 1))
     both = np.isfinite(one) & np.isfinite(other)
-    count, one, other = int(both.sum()), one[both], other[both]
-    if count < 2:
-        return Difference(level, measure, count, math.nan, math.nan, NONE)
-    found = mean_interval(other - one)
-    return Difference(level, measure, count, float(one.mean()), float(other.mean()), found)
+    fields = _fields(runs)[pairs[:, 0]][both]
+    one, other = (_field_means(side[both], fields) for side in (one, other))
+    means = [mean(side).estimate for side in (one, other)]
+    return Difference(level, measure, int(both.sum()), len(one), *means, mean(other - one))
 
 
-def _unpaired(level: Any, measure: str, one: np.ndarray, other: np.ndarray) -> Difference:
-    one, other = one[np.isfinite(one)], other[np.isfinite(other)]
+def _unpaired(level: Any, measure: str, first: Runs, second: Runs) -> Difference:
+    one, other = (_field_means(part[measure], _fields(part)) for part in (first, second))
+    count = len(one) + len(other)
     if min(len(one), len(other)) < 2:
-        return Difference(level, measure, None, math.nan, math.nan, NONE)
+        return Difference(level, measure, None, count, math.nan, math.nan, NONE)
     errors = [part.var(ddof=1) / len(part) for part in (one, other)]
     mid, error = float(other.mean() - one.mean()), math.sqrt(sum(errors))
     freedom = _welch(errors, (len(one), len(other)))
     reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, freedom)) * error if error else 0.0
     found = Interval(mid, mid - reach, mid + reach)
-    return Difference(level, measure, None, float(one.mean()), float(other.mean()), found)
+    return Difference(level, measure, None, count, float(one.mean()), float(other.mean()), found)
 
 
 def _welch(errors: Sequence[float], counts: Sequence[int]) -> float:
