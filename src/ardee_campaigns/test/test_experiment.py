@@ -106,6 +106,23 @@ def test_a_report_is_erased_by_none_but_the_same_experiment(run: Any, tmp_path: 
         check(tmp_path, "corn", range(1, 51))
 
 
+def test_finished_runs_of_other_parameters_are_not_erased(
+    run: Any, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    output, of_seed_7 = tmp_path / "out", ["--scenario", "corn", "--seed", "7", "--runs", "1"]
+    kept = tables.write_run(output / CAMPAIGN, run(USUAL))  # of corn, seed 7
+    (output / CAMPAIGN / scenarios.FILE).write_text("as it was")
+    assert run_experiment.main([*of_seed_7, "--output", str(output)]) == 2
+    said = capsys.readouterr().err
+    assert (
+        f"run_experiment: {output}: found finished runs of another first seed, parameters" in said
+    )
+    assert said.count("\n") == 1 and "expected another --output" in said and kept.is_file()
+    assert (output / CAMPAIGN / scenarios.FILE).read_text() == "as it was"
+    tables.write_run(output / CAMPAIGN, run({}))  # a failed one is no loss
+    run_experiment.check_runs(output / CAMPAIGN, [])
+
+
 def test_runs_that_failed_or_never_came_between_the_rows_are_reported(
     run: Any, tmp_path: Path
 ) -> None:

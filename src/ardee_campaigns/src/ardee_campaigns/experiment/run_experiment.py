@@ -24,6 +24,7 @@ from ardee_navigation.evaluation.scenario_files import Scenario
 from ardee_navigation.evaluation.scenarios import known_scenarios
 
 PROG = "run_experiment"
+_PARAMETERS = "parameters.yaml"  # of the program over UDP
 _HIL = ("rosrun", "ardee_navigation", "hil_row_follower", "--log", "-")
 
 
@@ -70,10 +71,35 @@ def check_folder(output: Path, scenario: str, seeds: Sequence[int]) -> None:
         )
 
 
+def check_runs(folder: Path, jobs: Sequence[Job]) -> None:
+    """Raises GeneratorError if a campaign's folder holds a finished run that is none of the jobs."""
+    ours = {job.run_id for job in jobs}
+    others = (tables.read_run_head(folder, run_id) for run_id in tables.finished(folder))
+    if any(head.row.status == tables.OK and head.row.run_id not in ours for head in others):
+        found = "found finished runs of another first seed, parameters, robot or program"
+        raise GeneratorError(
+            f"{folder.parent}: {found}, which would be erased; expected another --output"
+        )
+
+
+def _session(folder: Path, args: argparse.Namespace, scenario: Scenario) -> Session:
+    """Returns the session of an experiment, whose file is written; that of another one stays as it was."""
+    files = [folder / scenarios.FILE, folder / _PARAMETERS]
+    before = {file: file.read_bytes() for file in files if file.is_file()}
+    try:
+        session = Session(_write_campaign(folder, args, scenario), folder)
+        check_runs(folder, session.jobs(args.runs))
+    except BaseException:
+        for file, content in before.items():
+            write_file(file, content)
+        raise
+    return session
+
+
 def _write_campaign(folder: Path, args: argparse.Namespace, scenario: Scenario) -> Campaign:
     keys: Dict[str, Any] = {"measures": list(MEASURES)}
     if args.hil:  # in real time: a run beside another would take its time
-        parameters = folder / "parameters.yaml"
+        parameters = folder / _PARAMETERS
         values = asdict(scenarios.parameters_of(args, scenario))
         write_file(parameters, yaml.safe_dump(values).encode())
         places = [f"--{name}={{{name}}}" for name in ("bind", "sensors", "controls")]
@@ -128,7 +154,7 @@ def _experiment(args: argparse.Namespace, command: str) -> int:
         folder = output / CAMPAIGN
         (folder / tables.FOLDER).mkdir(parents=True, exist_ok=True)
         try:
-            session = Session(_write_campaign(folder, args, scenario), folder)
+            session = _session(folder, args, scenario)
             note_file(folder, session.campaign.file)
             with seconds_shown(PROG):
                 _drive(session, session.jobs(args.runs), report)
