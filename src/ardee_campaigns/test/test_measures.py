@@ -94,6 +94,17 @@ def test_a_robot_that_was_carried_did_not_drive_that_way() -> None:
     assert value("metres_per_intervention", run) == pytest.approx(5.9)
 
 
+def test_a_way_is_driven_or_carried_whatever_its_length() -> None:
+    fast = recorded(0.0, np.arange(-0.1, 12.0, 0.25))
+    assert value("way_m", fast) == pytest.approx(10.0)
+    assert value("distance_m", fast) == pytest.approx(12.0)
+    events = np.full(81, "", dtype="<U16")
+    events[40] = "off the lane"  # and carried for 5 cm, from 2 m on
+    carried = recorded(0.0, np.linspace(0.0, 4.0, 81), event=events)
+    assert value("way_m", carried) == pytest.approx(3.95)
+    assert value("distance_m", carried) == pytest.approx(3.95)
+
+
 def test_headlands_are_covered_by_a_robot_that_goes_there() -> None:
     assert value("headland_coverage", recorded(0.0, np.arange(3.0, 7.0, 0.05))) == 0.0
     across = np.concatenate([np.full(61, x) for x in np.arange(-2.0, 0.3, 0.25)])

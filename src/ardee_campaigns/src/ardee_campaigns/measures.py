@@ -20,7 +20,6 @@ from ardee_world.row_truth import Lane, Polyline
 from ardee_world.trial import Trial
 
 NEAR_M = 0.10  # the share of the way that lies within this of the centre line
-_LARGEST_STEP_M = 0.2  # a longer one is a robot that was carried
 _COVER_M = 0.25  # a place of a lane is driven over if the robot's middle comes as near
 _WIDEST_LANE_M = 2.0
 _HEADLAND_M = 2.0  # depth of the headland behind either end of the rows
@@ -47,7 +46,12 @@ class Recorded:
         along = self["along_m"]
         step = np.diff(along, prepend=along[:1])
         is_in_row = (along >= 0.0) & (along <= self.lane.centre.length_m)
-        return np.where((step > 0.0) & (step < _LARGEST_STEP_M) & is_in_row, step, 0.0)
+        return np.where((step > 0.0) & ~self.was_carried() & is_in_row, step, 0.0)
+
+    def was_carried(self) -> np.ndarray:
+        """Returns of each sample whether a person set the robot down between the one before and it."""
+        stepped_in = self["event"] != ""
+        return np.concatenate(([False], stepped_in[:-1]))
 
     def mean(self, values: np.ndarray) -> float:
         """Returns the mean of a column over the way."""
@@ -80,7 +84,7 @@ def _width_sd_m(run: Recorded, _truth: Trial) -> float:
 
 def _driven_m(run: Recorded) -> float:
     step = np.hypot(np.diff(run["x_m"]), np.diff(run["y_m"]))
-    return float(step[step < _LARGEST_STEP_M].sum())
+    return float(step[~run.was_carried()[1:]].sum())
 
 
 def _time_s(run: Recorded, _truth: Trial) -> float:
