@@ -19,9 +19,9 @@ def row(seed: int, rms_m: float = 0.01, interventions: int = 0, way_m: float = 5
     return {"run_id": f"{seed:016x}", "seed": seed, "replicate": 0, "measures": values}
 
 
-def experiment(folder: Path, rows: List[dict]) -> str:
+def experiment(folder: Path, rows: List[dict], world: str = "corn") -> str:
     """Writes the tables of an experiment; returns its folder."""
-    names = {"world": "corn", "robot": "robot", "controller": "lidar", "factors": {}}
+    names = {"world": world, "robot": "robot", "controller": "lidar", "factors": {}}
     made = [tables.RunRow(**names, status=tables.OK, **values) for values in rows]
     (folder / CAMPAIGN).mkdir(parents=True)
     tables.write_runs(folder / CAMPAIGN, made, tables.runs_schema({}, MEASURES, {}))
@@ -99,3 +99,15 @@ def test_too_little_to_compare_is_one_line(
         main(["compare_experiments", one, other])
     printed = capsys.readouterr().err
     assert ended.value.code == 2 and message in printed and printed.count("\n") == 1
+
+
+def test_experiments_of_different_worlds_are_not_paired(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    one = experiment(tmp_path / "one", [row(1), row(2)])
+    other = experiment(tmp_path / "other", [row(1), row(2)], "sorghum")
+    with pytest.raises(SystemExit) as ended:
+        main(["compare_experiments", one, other])
+    said = f"found the worlds corn in {one} and sorghum in {other}, expected one and the same"
+    printed = capsys.readouterr().err
+    assert ended.value.code == 2 and said in printed and printed.count("\n") == 1

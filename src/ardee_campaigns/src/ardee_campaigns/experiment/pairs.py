@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Compares the runs of two experiments over the same seeds, in pairs.
 
-A run of one is paired with the run of the other that has the same seed: the same field and start pose.
+A run of one is paired with the run of the other that has the same seed: in one world the same field and start pose.
 """
 import math
 from typing import Dict, List, Sequence, Tuple
@@ -38,7 +38,14 @@ def _difference(one: Runs, other: Runs, shown: Quantity) -> List[str]:
 
 
 def compare(one: Runs, other: Runs, names: Tuple[str, str]) -> str:
-    """Returns Markdown of the runs that both have and that came between the rows."""
+    """Returns Markdown of the runs that both have and that came between the rows.
+
+    Raises GeneratorError if the runs are of more than one world.
+    """
+    worlds = [runs.levels("world") for runs in (one, other)]
+    if worlds[0] != worlds[1] or len(worlds[0]) != 1:
+        found = " and ".join(f"{', '.join(each)} in {name}" for each, name in zip(worlds, names))
+        raise GeneratorError(f"found the worlds {found}, expected one and the same in both")
     places: List[Dict[int, int]] = [
         {int(seed): place for place, seed in enumerate(runs["seed"])} for runs in (one, other)
     ]
