@@ -8,11 +8,13 @@ from typing import Any, Dict
 
 import pytest
 import small_campaign
+from PIL import Image
 
 from ardee_campaigns.campaign_file import CampaignKeys, ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
 from ardee_campaigns.program import files_of
+from ardee_campaigns.run import sow
 from ardee_campaigns.run_campaign import half_width
 from ardee_common.errors import GeneratorError
 
@@ -103,6 +105,18 @@ REFUSED: Dict[str, Any] = {
         {"worlds": {"a": {"field": "tiny.yaml", "options": {"row_spacing": 1}}}},
         "did you mean 'row_spacing_m'",
     ),
+    "an option's file that is not there": (
+        {"worlds": {"a": {"field": "tiny.yaml", "options": {"weed_image": "no.png"}}}},
+        "weed_image: found",
+    ),
+    "a factor's file that is not there": (
+        {"factors": {"weed_image": {"of": "field", "values": ["tiny.yaml", "no.png"]}}},
+        "/no.png', no such file",
+    ),
+    "a folder of models that is not there": (
+        {"worlds": {"a": {"field": "tiny.yaml", "options": {"model_path": ["nowhere"]}}}},
+        "/nowhere', no such file",
+    ),
     "two worlds in one": (
         {"worlds": {"a": {"scenario": "corn", "field": "tiny.yaml"}}},
         "found scenario and field",
@@ -170,6 +184,21 @@ def test_before_the_first_run_is_refused(tmp_path: Path, case: str) -> None:
     assert message.startswith(f"{file}:") and "\n" not in message
     assert message[len(f"{file}:")].isdigit() or "missing" in message
     assert any(part in message for part in said.split("|")), message
+
+
+def test_files_of_options_lie_beside_the_campaigns_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    weeds = {"weed_density_per_m2": 20.0, "weed_image": "grey.png"}
+    worlds = {"a": {"field": "tiny.yaml", "options": weeds}}
+    factors = {"stone_image": {"of": "field", "values": ["grey.png"]}}
+    campaign = read_campaign(small_campaign.write(tmp_path / "c", worlds=worlds, factors=factors))
+    Image.new("L", (2, 2), 99).save(tmp_path / "c" / "grey.png")
+    monkeypatch.chdir(tmp_path)
+    planner = Planner(campaign)
+    job = planner.job(planner.cells[0], 0, tmp_path)
+    sow(job, tmp_path / "models")
+    assert "weed_" in (tmp_path / "models" / "tiny" / "model.sdf").read_text()
 
 
 def test_the_half_width_of_an_interval_is_students() -> None:

@@ -42,7 +42,9 @@ class WorldKeys:
     field: Optional[str] = option(
         None, "field recipe, sown anew for each replicate; alone it stands on its `terrain`"
     )
-    options: Optional[dict] = option(None, "keys of the field recipe that are replaced")
+    options: Optional[dict] = option(
+        None, "keys of the field recipe that are replaced; paths are relative to this file"
+    )
     params: Optional[dict] = option(
         None, "controller to parameters that this world needs, over its own"
     )

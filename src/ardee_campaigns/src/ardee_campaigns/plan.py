@@ -125,7 +125,7 @@ class Planner:
             with _at(self._placed["worlds"], name):
                 self._files[name] = worlds.find_files(keys, folder)
                 for factors in self._field_factors(name):
-                    worlds.check_options(keys, self._files[name], factors)
+                    worlds.check_options(keys, self._files[name], factors, folder)
         self._contents = {
             name: hashlib.sha256(files.content()).hexdigest() for name, files in self._files.items()
         }

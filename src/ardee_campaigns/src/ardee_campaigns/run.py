@@ -48,7 +48,8 @@ def sow(job: Job, folder: Path) -> Trial:
     """Returns the world of a run, with its field sown in a folder of models."""
     factors = factors_of(job.campaign, job.cell, "field")
     keys = job.campaign.worlds[job.cell.world]
-    return worlds.sow(keys, job.files, factors, job.field_seed, folder)
+    beside = job.campaign.file.parent
+    return worlds.sow(keys, job.files, factors, job.field_seed, folder, beside)
 
 
 def _seconds(time_ns: int) -> float:

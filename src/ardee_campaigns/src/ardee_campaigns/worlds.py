@@ -14,7 +14,14 @@ from ardee_common.errors import GeneratorError, known_names
 from ardee_world import trial
 from ardee_world.field_config import FieldConfig
 from ardee_world.generate_field import make_configured
-from ardee_world.request import all_fields, checked_values, configure, yaml_values
+from ardee_world.request import (
+    all_fields,
+    checked_values,
+    configure,
+    placed_values,
+    read_paths,
+    yaml_values,
+)
 from ardee_world.trial import Trial
 
 _OF_A_RUN = ("name", "output", "seed")  # options of a recipe that each run has of its own
@@ -83,8 +90,13 @@ def find_files(keys: WorldKeys, folder: Path) -> WorldFiles:
     return WorldFiles(world or None, plan or None)
 
 
-def check_options(keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any]) -> None:
-    """Raises GeneratorError for an option that no recipe has, or one that the recipe refuses."""
+def check_options(
+    keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any], folder: Path
+) -> None:
+    """Raises GeneratorError for an option that no recipe has, one that the recipe refuses, or a file that is not there.
+
+    Relative paths lie in `folder`.
+    """
     known = sorted(set(all_fields()) - set(_OF_A_RUN))
     options = {**(keys.options or {}), **factors}
     for name in options:
@@ -93,22 +105,36 @@ def check_options(keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any]
         if name not in known:
             raise GeneratorError(f"options: found {name!r}, {known_names(name, known)}")
     if files.plan:
-        configure({**yaml_values(files.plan), **checked_values(options), "name": files.plan.stem})
+        values = placed_values(checked_values(options), folder)
+        for name in values:
+            for path in read_paths({name: values[name]}):
+                if not path.exists():
+                    raise GeneratorError(f"options: {name}: found {str(path)!r}, no such file")
+        configure({**yaml_values(files.plan), **values, "name": files.plan.stem})
     elif options:
         found = f"options: found {', '.join(options)}"
         raise GeneratorError(f"{found} for a world without field recipe, expected a recipe")
 
 
-def _options(keys: WorldKeys, factors: Mapping[str, Any]) -> Dict[str, Any]:
+def _options(keys: WorldKeys, factors: Mapping[str, Any], folder: Path) -> Dict[str, Any]:
     made = {**(keys.options or {}), **factors}
-    return {name: tuple(v) if isinstance(v, list) else v for name, v in made.items()}
+    made = {name: tuple(v) if isinstance(v, list) else v for name, v in made.items()}
+    return placed_values(made, folder)
 
 
 def sow(
-    keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any], seed: int, folder: Path
+    keys: WorldKeys,
+    files: WorldFiles,
+    factors: Mapping[str, Any],
+    seed: int,
+    folder: Path,
+    beside: Path,
 ) -> Trial:
-    """Returns the world of a run; its field is sown in a folder of models. `factors` are options of the recipe."""
-    options = _options(keys, factors)
+    """Returns the world of a run; its field is sown in a folder of models.
+
+    factors : options of the recipe; relative paths in them and in the world's options lie in the folder `beside`
+    """
+    options = _options(keys, factors, beside)
     shipped = [Path(name) for name in packages.model_folders()]
     if files.world:
         return trial.prepare(files.world, files.plan, seed, folder, options, shipped)

@@ -4,7 +4,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 from ardee_common.config import Mapping, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError
@@ -83,13 +83,27 @@ def yaml_values(path: Path) -> Values:
             values[key] = raw
         else:
             values[key] = _from_yaml(known, mapping, key)
-        if key in _PATHS and isinstance(values[key], str):
-            values[key] = _relative(values[key], path.parent)
-        if key == "model_path":
-            values[key] = tuple(_relative(folder, path.parent) for folder in values[key])
     if "row_length_m" in values and "stalks_per_row" in values:
         raise mapping.error("stalks_per_row", "found row_length_m too, expected one of them")
-    return values
+    return placed_values(values, path.parent)
+
+
+def placed_values(values: Values, folder: Path) -> Values:
+    """Returns options whose relative paths lie in a folder."""
+    made = dict(values)
+    for key in _PATHS:
+        if isinstance(made.get(key), str):
+            made[key] = _relative(made[key], folder)
+    if "model_path" in made:
+        made["model_path"] = tuple(_relative(name, folder) for name in made["model_path"])
+    return made
+
+
+def read_paths(values: Values) -> List[Path]:
+    """Returns the files and the folders of models that options name."""
+    names = [values.get(key) for key in _PATHS if key != "output"]
+    names += values.get("model_path", ())
+    return [Path(name) for name in names if isinstance(name, str)]
 
 
 def checked_values(options: Values) -> Values:
