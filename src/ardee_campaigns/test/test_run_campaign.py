@@ -7,13 +7,15 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Callable, Dict, List
 
 import pytest
 import small_campaign
 from small_campaign import run, write
 
-from ardee_campaigns import tables
+from ardee_campaigns import tables, workers
+from ardee_campaigns.attempts import STALLED, Attempts
 from ardee_campaigns.replay import note_file
 from ardee_common.output import locked
 
@@ -31,11 +33,11 @@ def rows(output: Path) -> List[dict]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("workers", [2, 4])
+@pytest.mark.parametrize("count", [2, 4])
 def test_any_number_of_workers_gives_the_same_bytes(
-    tmp_path: Path, workers: int, reference: bytes
+    tmp_path: Path, count: int, reference: bytes
 ) -> None:
-    done = run(write(tmp_path, workers=workers), "--output", tmp_path / "out", "--csv")
+    done = run(write(tmp_path, workers=count), "--output", tmp_path / "out", "--csv")
     assert (tmp_path / "out" / tables.RUNS).read_bytes() == reference
     assert done.stdout.strip() == str(tmp_path / "out" / tables.RUNS)
     assert "4 runs, 0 of them failed" in done.stderr
@@ -226,6 +228,20 @@ def test_controllers_that_misbehave_fail_their_runs_and_the_rest_goes_on(tmp_pat
     timings = {row["run_id"]: row for row in tables.read_timings(tmp_path / "out").to_pylist()}
     assert timings[found["dies_once"]["run_id"]]["attempts"] == 2
     assert timings[found["hangs"]["run_id"]]["attempts"] == 3
+
+
+def test_attempts_are_counted_by_lines_and_within_a_command(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    attempts = Attempts(tmp_path, "a")
+    for _ in range(2):
+        with attempts.begin() as log:
+            print('Timeout (0:15:00)!\n  File "attempts.py", line 27 in begin', file=log)
+    assert attempts.lost() == [STALLED, STALLED]
+    with workers.Workers(tmp_path, None, 1) as pool:  # of the next command
+        monkeypatch.setattr(pool, "_work_off", lambda jobs, told: None)
+        pool.work_off([SimpleNamespace(run_id="a")], print)
+    assert attempts.lost() == []
 
 
 @pytest.mark.slow

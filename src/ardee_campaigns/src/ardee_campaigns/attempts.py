@@ -3,12 +3,14 @@
 import contextlib
 import dataclasses
 import os
+import re
 from pathlib import Path
 from typing import IO, Iterator, List
 
 from ardee_campaigns.tables import RunFile
 
 _BEGIN = "begin"
+_BEGIN_LINE = re.compile(rf"^{_BEGIN} \d+$", re.MULTILINE)  # a stack dump may hold the word
 _TIMEOUT = "Timeout ("  # what faulthandler writes when it ends a process
 STALLED, DIED = "stalled: took longer than watchdog_wall_s", "its worker ended"
 
@@ -30,7 +32,7 @@ class Attempts:
     def _texts(self) -> List[str]:
         if not self._file.is_file():
             return []
-        return self._file.read_text().split(_BEGIN)[1:]
+        return _BEGIN_LINE.split(self._file.read_text(errors="replace"))[1:]
 
     def lost(self) -> List[str]:
         """Returns how each attempt so far was lost."""

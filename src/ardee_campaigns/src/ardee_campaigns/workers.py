@@ -47,6 +47,8 @@ class Workers:
         """Does the jobs, in any order; `told` gets each one and its error. Raises WorkersError if it cannot go on."""
         if not jobs:
             return
+        for job in jobs:  # attempts that an earlier command's end cut off are no losses
+            Attempts(self._folder, job.run_id).forget()
         try:
             self._work_off(jobs, told)
         except CommClosedError:
