@@ -12,11 +12,15 @@ from typing import Callable, Dict, List
 
 import pytest
 import small_campaign
+from distributed import LocalCluster
 from small_campaign import run, write
 
 from ardee_campaigns import tables, workers
 from ardee_campaigns.attempts import STALLED, Attempts
+from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.plan import Job, Planner
 from ardee_campaigns.replay import note_file
+from ardee_campaigns.run import failed
 from ardee_common.output import locked
 
 
@@ -242,6 +246,32 @@ def test_attempts_are_counted_by_lines_and_within_a_command(
         monkeypatch.setattr(pool, "_work_off", lambda jobs, told: None)
         pool.work_off([SimpleNamespace(run_id="a")], print)
     assert attempts.lost() == []
+
+
+def test_each_folder_on_a_scheduler_gets_its_own_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    planner = Planner(read_campaign(write(tmp_path)))
+    job = planner.job(planner.cells[0], 0, tmp_path)
+    one, other, nowhere = (tmp_path / name for name in ("one", "other", "nowhere"))
+
+    def work(job: Job, folder: Path) -> str:
+        if folder != nowhere:
+            tables.write_run(folder, failed(job, "done"))
+        return "done"
+
+    def work_off(folder: Path, told: Callable[[Job, str], None]) -> None:
+        with workers.Workers(folder, cluster.scheduler_address, 1) as pool:
+            pool.work_off([job], told)
+
+    monkeypatch.setattr(workers, "work", work)
+    errors: List[str] = []
+    with LocalCluster(1, processes=False, threads_per_worker=1, dashboard_address=None) as cluster:
+        # The other begins while the scheduler still has the result of the first.
+        work_off(one, lambda *_: work_off(other, lambda _, error: errors.append(error)))
+        work_off(nowhere, lambda _, error: errors.append(error))
+    assert len(finished(one)) == len(finished(other)) == 1 and errors[0] == "done"
+    assert f"its worker left no file in {nowhere}, expected one" in errors[1]
 
 
 @pytest.mark.slow

@@ -17,7 +17,8 @@ from ardee_common.cluster import LOST, connected
 from ardee_common.errors import WorkersError
 from ardee_common.output import FULL
 
-_MOST_LOSSES = 3  # of a run's workers: then it has failed
+_MOST_LOSSES = 3  # of a run's workers, or of its file: then it has failed
+_NO_FILE = "its worker left no file in {}, expected one and the same folder for all workers"
 Told = Callable[[Job, str], None]
 
 
@@ -58,21 +59,21 @@ class Workers:
         client, by_key = self._connected(), {}
 
         def submit(job: Job, attempt: int = 0) -> Any:
-            key = f"{job.run_id}-{attempt}"
+            key = f"{job.run_id}-{attempt} in {self._folder}"  # a scheduler has campaigns side by side
             by_key[key] = job, attempt
             return client.submit(work, job, self._folder, key=key, pure=False)
 
         ended = as_completed([submit(job) for job in jobs], loop=client.loop)
         for future in ended:
             job, attempt = by_key.pop(future.key)
-            error = self._outcome(job, future)
+            error = self._outcome(job, future, attempt)
             if error is None:
                 ended.add(submit(job, attempt + 1))
             else:
                 told(job, error)
             future.release()
 
-    def _outcome(self, job: Job, future: Any) -> Optional[str]:
+    def _outcome(self, job: Job, future: Any, attempt: int) -> Optional[str]:
         """Returns the error of a job that has ended, empty if it went well; None if it is to be tried again."""
         if future.cancelled():
             raise LOST
@@ -80,7 +81,10 @@ class Workers:
         if isinstance(error, CommClosedError):
             raise LOST
         if error is None:
-            return future.result()
+            if tables.run_path(self._folder, job.run_id).is_file():
+                return future.result()
+            is_last = attempt + 1 >= _MOST_LOSSES
+            return self._give_up(job, _NO_FILE.format(self._folder)) if is_last else None
         if isinstance(error, KilledWorker):  # dask blames all jobs that waited for the worker
             lost = Attempts(self._folder, job.run_id).lost()
             return self._give_up(job, lost[-1]) if len(lost) >= _MOST_LOSSES else None
