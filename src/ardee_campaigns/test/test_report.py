@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests report and compare on tables with effects of known size, and on a small campaign that was run."""
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Dict, List
@@ -14,6 +15,8 @@ from small_campaign import run, write
 
 from ardee_campaigns import tables
 from ardee_campaigns.__main__ import main
+from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.plan import about, cells
 from ardee_campaigns.plots import pyplot
 from ardee_campaigns.report import drives, figures, statistics
 from ardee_campaigns.report.runs import Runs, chosen, read
@@ -154,6 +157,24 @@ def test_points_of_a_latin_hypercube_are_a_scale_however_few() -> None:
         "", {**columns, "factor_w": 0.0 * x}, ["controller", "factor_x", "factor_w"], ["y"]
     )
     assert not statistics.is_scale(crossed, "factor_x")
+
+
+def test_a_factor_of_low_and_high_is_a_scale_however_few_its_points(tmp_path: Path) -> None:
+    factors = {"speed_m_s": {"low": 0.2, "high": 0.5}, "turn_rad_s": [0.0, 0.1, 0.2]}
+    file = write(tmp_path, factors=factors, plan={"kind": "latin_hypercube", "points": 6})
+    campaign = read_campaign(file)
+    kinds = {name: tables.pa.float64() for name in factors}
+    schema = tables.runs_schema(kinds, ["y"], about(campaign))
+    rows = [
+        tables.RunRow(f"{n}", "tiny", "tsv1", cell.controller, dict(cell.factors), 0, 7, tables.OK)
+        for n, cell in enumerate(cells(campaign)[:6])
+    ]
+    tables.write_runs(tmp_path, [replace(row, measures={"y": 0.0}) for row in rows], schema)
+    runs = read(tmp_path).ok()
+    assert len(runs) == 6 and statistics.is_scale(runs, "factor_speed_m_s")
+    pair = runs.where(runs["factor_speed_m_s"] < sorted(runs["factor_speed_m_s"])[3])
+    alone = replace(pair, factors=["factor_speed_m_s"])  # with nothing else that varies
+    assert statistics.is_scale(alone, "factor_speed_m_s")
 
 
 def test_an_interquartile_mean_leaves_out_the_ends() -> None:

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 from ardee_sim.packages import find_package
 
-from ardee_campaigns import controllers, measures, robot, worlds
+from ardee_campaigns import controllers, measures, robot, tables, worlds
 from ardee_campaigns.campaign_file import Campaign, CampaignKeys, FactorKeys, Value
 from ardee_common.config import Mapping as Placed
 from ardee_common.config import read_yaml_lines
@@ -230,4 +230,6 @@ def _at(mapping: Placed, key: str) -> Iterator[None]:
 def about(campaign: Campaign) -> Mapping[str, str]:
     """Returns the metadata of runs.parquet."""
     keys = campaign.keys
-    return {"name": keys.name, "seed": str(keys.seed), "engine": engine_version()}
+    told = {"name": keys.name, "seed": str(keys.seed), "engine": engine_version()}
+    scales = [name for name, factor in campaign.factors.items() if factor.values is None]
+    return {**told, tables.SCALES: " ".join(scales)} if scales else told

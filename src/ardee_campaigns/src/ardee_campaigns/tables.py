@@ -27,6 +27,9 @@ from ardee_common.output import write_file
 VERSION = 1  # of the tables
 RUNS, TIMINGS, SAMPLES, FOLDER = "runs.parquet", "timings.parquet", "samples.parquet", "runs"
 OK, FAILED = "ok", "failed"
+SCALES = (
+    "scales"  # key of the metadata of runs.parquet: names of the factors of a low and a high value
+)
 _COMPRESSION = "zstd"
 Factor = Union[float, str, bool]
 
@@ -277,6 +280,11 @@ def read_table(path: Path) -> pa.Table:
 def factors_of(schema: pa.Schema) -> List[str]:
     """Returns the names of the factors of runs.parquet."""
     return [name[len("factor_") :] for name in schema.names if name.startswith("factor_")]
+
+
+def scales_of(schema: pa.Schema) -> List[str]:
+    """Returns the names of the factors of runs.parquet that have a low and a high value."""
+    return (schema.metadata or {}).get(SCALES.encode(), b"").decode().split()
 
 
 def measures_of(schema: pa.Schema) -> List[str]:

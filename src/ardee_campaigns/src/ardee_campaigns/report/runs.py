@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rows of runs.parquet as columns, with what was varied and what was measured; some of them chosen by conditions."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Sequence
 
@@ -20,12 +20,14 @@ class Runs:
     columns : name to values, (n,), texts and truth values as objects
     factors : columns that were varied: world, robot, controller, factor_NAME
     measures : columns that were measured
+    scales : factors that were drawn between a low and a high value
     """
 
     name: str  # of the campaign
     columns: Dict[str, np.ndarray]
     factors: List[str]
     measures: List[str]
+    scales: Sequence[str] = ()
 
     def __len__(self) -> int:
         return len(self.columns["run_id"])
@@ -36,7 +38,7 @@ class Runs:
     def where(self, chosen: np.ndarray) -> "Runs":
         """Returns the runs of a mask or of indices."""
         columns = {name: values[chosen] for name, values in self.columns.items()}
-        return Runs(self.name, columns, self.factors, self.measures)
+        return replace(self, columns=columns)
 
     def ok(self) -> "Runs":
         """Returns the runs that did not fail."""
@@ -65,7 +67,8 @@ def read(folder: Path) -> Runs:
     factors = [*NAMES, *(f"factor_{name}" for name in tables.factors_of(table.schema))]
     columns = {name: _values(table.column(name)) for name in table.schema.names}
     name = (table.schema.metadata or {}).get(b"name", b"").decode() or folder.name
-    return Runs(name, columns, factors, tables.measures_of(table.schema))
+    scales = [f"factor_{name}" for name in tables.scales_of(table.schema)]
+    return Runs(name, columns, factors, tables.measures_of(table.schema), scales)
 
 
 def _values(column: pa.ChunkedArray) -> np.ndarray:

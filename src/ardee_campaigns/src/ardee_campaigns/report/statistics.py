@@ -91,12 +91,14 @@ def rate_per_100_m(runs: Runs, measure: str) -> Tuple[int, float, Interval]:
 def is_scale(runs: Runs, factor: str) -> bool:
     """Returns whether the values of a factor are a scale of numbers, along which a line is fitted.
 
-    They are if they are many, or if no two runs that are alike in all else have different ones: in a Latin hypercube.
+    They are if they are many, were drawn between a low and a high one, or if no two runs that are alike in all else
+    have different ones: in a Latin hypercube.
     """
     levels = runs.levels(factor)
     if len(levels) < 3 or not all(isinstance(level, float) for level in levels):
         return False
-    return len(levels) > MOST_LEVELS or len(set(_all_else(runs, factor))) == len(runs)
+    is_drawn = factor in runs.scales or len(levels) > MOST_LEVELS
+    return is_drawn or len(set(_all_else(runs, factor))) == len(runs)
 
 
 def share_of_variance(runs: Runs, factor: str, measure: str) -> float:
