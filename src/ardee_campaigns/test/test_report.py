@@ -18,7 +18,7 @@ from ardee_campaigns.__main__ import main
 from ardee_campaigns.campaign_file import read_campaign
 from ardee_campaigns.plan import about, cells
 from ardee_campaigns.plots import pyplot
-from ardee_campaigns.report import drives, figures, statistics
+from ardee_campaigns.report import comparison, drives, figures, statistics
 from ardee_campaigns.report.runs import Runs, chosen, read
 from ardee_common.errors import GeneratorError
 
@@ -211,6 +211,21 @@ def test_runs_are_chosen_by_conditions(folder: Path) -> None:
     for text, message in (("corn", "NAME=VALUE"), ("x=1", "known"), ("world=x", "corn")):
         with pytest.raises(GeneratorError, match=f"--where: .*{message}"):
             chosen(read(folder), [text])
+
+
+def test_levels_are_told_apart_by_all_their_digits() -> None:
+    levels = [0.1234567, 0.1234568, 6.0]
+    columns = {
+        "run_id": np.array(list("abc")),
+        "factor_x": np.array(levels),
+        "factor_kind": np.array(["1", "x", "x"], dtype=object),
+    }
+    runs = Runs("", columns, ["factor_x", "factor_kind"], [])
+    for text, run_id in (("x=0.1234567", "a"), ("x=0.1234568", "b"), ("x=6", "c"), ("kind=1", "a")):
+        assert chosen(runs, [text])["run_id"].tolist() == [run_id]
+    assert comparison.base_level(runs, "factor_x", "0.1234568") == levels[1]
+    with pytest.raises(GeneratorError, match="'0.123457'.* 0.1234567, 0.1234568, 6"):
+        chosen(runs, ["x=0.123457"])
 
 
 class Parts(HTMLParser):

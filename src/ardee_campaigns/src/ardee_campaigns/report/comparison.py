@@ -5,9 +5,8 @@ from typing import Any, List, Optional, Sequence
 
 from ardee_campaigns.report import figures, statistics
 from ardee_campaigns.report.page import Page
-from ardee_campaigns.report.runs import Runs, short, shown
+from ardee_campaigns.report.runs import Runs, level_named, short, shown
 from ardee_campaigns.report.statistics import Interval
-from ardee_common.errors import GeneratorError, known_names
 
 HEADS = (
     *("measure", "pairs", "fields", "mean of the first", "of the other"),
@@ -35,10 +34,7 @@ def base_level(runs: Runs, factor: str, text: Optional[str]) -> Any:
     levels = runs.levels(factor)
     if text is None:
         return levels[0]
-    named = {shown(level): level for level in levels}
-    if text not in named:
-        raise GeneratorError(f"--base: found {text!r}, {known_names(text, named)}")
-    return named[text]
+    return level_named(text, levels, "--base")
 
 
 def compare(page: Page, runs: Runs, factor: str, base: Any, picture: Path) -> None:

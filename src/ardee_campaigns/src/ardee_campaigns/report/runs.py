@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rows of runs.parquet as columns, with what was varied and what was measured; some of them chosen by conditions."""
+import contextlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Sequence
@@ -96,6 +97,23 @@ def shown(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+def level_named(text: str, levels: Sequence[Any], what: str) -> Any:
+    """Returns the level that a text names: that very text or truth value, or exactly that number."""
+    named = {_exact(level): level for level in levels}
+    if text in named:
+        return named[text]
+    with contextlib.suppress(ValueError):
+        if float(text) in [level for level in levels if isinstance(level, float)]:
+            return float(text)
+    raise GeneratorError(f"{what}: found {text!r}, {known_names(text, named)}")
+
+
+def _exact(value: Any) -> str:
+    """Returns a factor's value as it is shown, with all its digits."""
+    text = shown(value)
+    return repr(value) if isinstance(value, float) and float(text) != value else text
+
+
 def chosen(runs: Runs, conditions: Sequence[str]) -> Runs:
     """Returns the runs that fulfil all conditions NAME=VALUE."""
     for text in conditions:
@@ -103,10 +121,8 @@ def chosen(runs: Runs, conditions: Sequence[str]) -> Runs:
         if not is_there:
             raise GeneratorError(f"--where: found {text!r}, expected NAME=VALUE")
         factor = factor_named(runs, name, "--where")
-        values = [shown(level) for level in runs.levels(factor)]
-        if value not in values:
-            raise GeneratorError(f"--where: {name}: found {value!r}, {known_names(value, values)}")
-        runs = runs.where(np.array([shown(one) == value for one in runs[factor].tolist()]))
+        level = level_named(value, runs.levels(factor), f"--where: {name}")
+        runs = runs.where(np.array([one == level for one in runs[factor].tolist()]))
         if not len(runs):
             raise GeneratorError(f"--where: found no run with all of {', '.join(conditions)}")
     return runs
