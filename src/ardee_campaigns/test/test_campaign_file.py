@@ -84,6 +84,20 @@ REFUSED: Dict[str, Any] = {
     "no controllers": ({"controllers": {}}, "controllers: found none"),
     "an empty factor": ({"factors": {"speed_m_s": []}}, "speed_m_s|values: found []"),
     "a value twice": ({"factors": {"speed_m_s": [1, 1.0]}}, "values: found [1, 1.0]"),
+    "a number of more than 64 bit": (
+        {"factors": {"speed_m_s": [1, 10**30]}},
+        "values: found [1,",
+    ),
+    "a number that is no float": ({"factors": {"speed_m_s": [10**400]}}, "values: found [1000"),
+    "a number and its text": ({"factors": {"speed_m_s": [1, "1"]}}, "values: found [1, '1']"),
+    "two numbers of one float": (
+        {"factors": {"speed_m_s": [2**53, 2**53 + 1]}},
+        "values: found",
+    ),
+    "a range of no floats": (
+        {"factors": {"speed_m_s": {"low": 0, "high": 10**400}}},
+        "high: found 1000",
+    ),
     "a range in a factorial": (
         {"factors": {"speed_m_s": {"low": 0.1, "high": 0.2}}},
         "which a Latin hypercube needs",

@@ -7,27 +7,31 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Optional, Tuple
 
+from ardee_campaigns import tables
 from ardee_common.config import Mapping, build, build_group, read_yaml_lines
 from ardee_common.errors import GeneratorError
 from ardee_common.options import bounded, converted, option
 
 LARGEST_SEED = 2**31 - 1  # of a field
+_LARGEST = 2**63 - 1  # whole number
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 Value = Any  # of a factor: a number, a text or a truth value
 
 
 def _scalars(value: Any) -> Tuple[Value, ...]:
-    """Returns the values of a list of different numbers, texts or truth values."""
+    """Returns the values of a list of numbers, texts or truth values that differ in the tables, too."""
     if not isinstance(value, list) or not value:
         raise ValueError(value)
-    if not all(isinstance(v, (str, int, float)) and _is_finite(v) for v in value):
+    if not all(isinstance(v, (str, int, float)) and _is_bounded(v) for v in value):
         raise ValueError(value)
-    if len({(type(v) is bool, v) for v in value}) != len(value):
+    if len(set(tables.stored(value))) != len(value):
         raise ValueError(value)
     return tuple(value)
 
 
-def _is_finite(value: Value) -> bool:
+def _is_bounded(value: Value) -> bool:
+    if isinstance(value, int):
+        return -_LARGEST <= value <= _LARGEST
     return isinstance(value, str) or math.isfinite(value)
 
 
@@ -161,7 +165,10 @@ class FactorKeys:
         choices=("controller", "field", "robot"),
     )
     values: Optional[tuple] = converted(
-        _scalars, "a list of different numbers, texts or truth values that is not empty", None
+        _scalars,
+        "a list of different numbers of at most 64 bit, texts or truth values that is not empty; a table has a list of"
+        " mixed ones as texts",
+        None,
     )
     low: Optional[float] = option(None, "least value, in a Latin hypercube")
     high: Optional[float] = option(None, "greatest value, in a Latin hypercube")

@@ -152,6 +152,13 @@ def factor_type(values: Sequence[Factor]) -> pa.DataType:
     return pa.string()
 
 
+def stored(values: Sequence[Factor]) -> List[Factor]:
+    """Returns a factor's values as its column has them."""
+    kind = factor_type(values)
+    convert = str if kind == pa.string() else float if kind == pa.float64() else bool
+    return [convert(value) for value in values]
+
+
 def _flat(row: RunRow, schema: pa.Schema) -> Dict[str, Any]:
     """Returns the row with a column for each factor and measure; what it lacks is NaN, or null if it is a text."""
     flat = dict(vars(row))
