@@ -61,6 +61,16 @@ def test_runs_are_pooled_by_their_way() -> None:
     assert (found["time_s"], found["wall_s"]) == (45.0, 10.0)
 
 
+def test_a_run_without_a_number_does_not_count_in_it() -> None:
+    unseen = ("row_width_m", "row_width_sd_m", "left_error_m", "right_error_m")
+    blind = summary(way_m=30.0, lateral_rms_m=0.01, **dict.fromkeys(unseen, math.nan))
+    seeing = summary(row_width_m=0.7, row_width_sd_m=0.02, left_error_m=0.01, right_error_m=-0.01)
+    found = pooled([blind, seeing])
+    assert [found[name] for name in unseen] == pytest.approx([0.7, 0.02, 0.01, -0.01])
+    # 1 cm on three quarters of the way and 3 cm on one: mean square of 3 cm^2
+    assert found["lateral_rms_m"] == pytest.approx(0.01 * math.sqrt(3.0))
+
+
 def test_report_has_all_files_and_the_same_bytes(run: Any, tmp_path: Path) -> None:
     folders = [tmp_path / name for name in ("one", "two")]
     for folder in folders:

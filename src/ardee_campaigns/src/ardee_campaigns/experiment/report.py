@@ -91,12 +91,16 @@ def _ended(run: tables.RunFile) -> EndedRun:
 
 
 def pooled(runs: Sequence[Summary]) -> Summary:
-    """Returns the numbers of all samples of the runs together, each weighted by the way it stands for."""
+    """Returns the numbers of all samples of the runs together, each weighted by the way it stands for.
+
+    A run that has no number, such as one in which nothing was perceived, does not count in it.
+    """
     total = {name: float(sum(run[name] for run in runs)) for name in (*_COUNTS, "way_m", "time_s")}
     total["wall_s"] = sum(run["wall_s"] for run in runs)
 
     def mean(value: Callable[[Summary], float]) -> float:
-        known = [(run["way_m"], value(run)) for run in runs if run["way_m"] > 0.0]
+        pairs = [(run["way_m"], value(run)) for run in runs if run["way_m"] > 0.0]
+        known = [(weight, one) for weight, one in pairs if math.isfinite(one)]
         way_m = sum(weight for weight, _ in known)
         return sum(weight * one for weight, one in known) / way_m if known else math.nan
 
@@ -105,7 +109,7 @@ def pooled(runs: Sequence[Summary]) -> Summary:
     for name in ("lateral_rms_m", "heading_rms_rad"):
         total[name] = math.sqrt(mean(lambda run, name=name: run[name] ** 2))
     for name in ("lateral_max_m", "heading_max_rad"):
-        total[name] = max((run[name] for run in runs if run["way_m"] > 0.0), default=math.nan)
+        total[name] = max((r[name] for r in runs if math.isfinite(r[name])), default=math.nan)
     width_m = total["row_width_m"]
     variance = mean(lambda run: run["row_width_sd_m"] ** 2 + (run["row_width_m"] - width_m) ** 2)
     total["row_width_sd_m"] = math.sqrt(variance)
