@@ -140,6 +140,15 @@ REFUSED: Dict[str, Any] = {
         "did you mean 'ardee/hokuyo'",
     ),
     "an unknown pace": ({"robots": {"a": {"pace": "odometry"}}}, "pace: found 'odometry'"),
+    "an unknown pace beside a period": (
+        {"robots": {"a": {"pace": "odometry", "period_s": 0.025}}},
+        "pace: found 'odometry'",
+    ),
+    "most_replicates of a factorial": ({"plan": {"most_replicates": 3}}, "most_replicates: found"),
+    "an intervention in a free task": (
+        {"task": {"kind": "free", "most_interventions": 3}},
+        "most_interventions: found it in a task of kind free",
+    ),
     "a period of no whole steps": (
         {"robots": {"a": {"period_s": 0.012}}},
         "found a control period of 0.012 s, expected whole steps of 0.005 s",

@@ -170,6 +170,7 @@ def test_a_bag_is_read(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
             [__file__, "--runs", "2"],
             "--runs: found it with /nowhere, which is no campaign's folder",
         ),
+        ([__file__, "--topic", "/scan"], "--topic: found '/scan' without a .bag file"),
         ([__file__, "--factory", "nobody:make"], "--factory: found 'nobody:make'"),
     ],
 )

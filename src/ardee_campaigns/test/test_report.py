@@ -279,6 +279,19 @@ def test_the_same_tables_give_the_same_page(folder: Path, tmp_path: Path) -> Non
     assert (tmp_path / "report.html").read_bytes() == page
 
 
+def test_a_base_of_a_scale_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    speeds = [0.1 * number for number in range(9)]
+    rows = [
+        replace(row, factors={"speed_m_s": speeds[number % 9]})
+        for number, row in enumerate(synthetic_campaign.rows(27))
+    ]
+    schema = tables.runs_schema({"speed_m_s": tables.pa.float64()}, synthetic_campaign.MEASURES, {})
+    tables.write_runs(tmp_path, rows, schema)
+    with pytest.raises(SystemExit) as ended:
+        main(["compare", str(tmp_path), "--by", "speed_m_s", "--base", "0.1"])
+    assert ended.value.code == 2 and "--base: found '0.1' for speed_m_s" in capsys.readouterr().err
+
+
 def test_compare_prints_and_writes(folder: Path, capsys: pytest.CaptureFixture) -> None:
     words = ["compare", str(folder), "--by", "speed_m_s", "--base", "0.6", "--where", "world=corn"]
     assert main(words) == 0

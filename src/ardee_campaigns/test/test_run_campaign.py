@@ -173,7 +173,7 @@ def test_ctrl_c_during_the_imports_ends_in_a_line(tmp_path: Path) -> None:
 def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
 ) -> None:
-    output, file = tmp_path / "out", write(tmp_path)
+    output, file = tmp_path / "out", write(tmp_path, workers=None)
 
     def cluster(name: str) -> List[object]:
         place = tmp_path / name
@@ -332,6 +332,20 @@ def test_the_plan_is_listed_and_nothing_run(tmp_path: Path) -> None:
     assert lines[0].endswith("replicate,seed,is_done,factor_speed_m_s") and len(lines) == 9
     assert "8 runs, 8 of them to do" in done.stderr
     assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (["--list", "--csv"], "--csv: found it with --list, "),
+        (["--replay", "x", "--retry-failed"], "--retry-failed: found it with --replay, "),
+        (["--list", "--replay", "x"], "--replay: found it with --list, "),
+        (["--scheduler", "tcp://x:1"], "campaign.yaml:4: workers: found it with --scheduler"),
+    ],
+)
+def test_what_has_no_effect_is_refused(tmp_path: Path, words: List[str], message: str) -> None:
+    said = run(write(tmp_path), *words, code=2).stderr
+    assert message in said and said.count("\n") == 1
 
 
 @pytest.mark.slow

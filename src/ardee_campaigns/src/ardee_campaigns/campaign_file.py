@@ -337,6 +337,7 @@ def read_campaign(file: Path) -> Campaign:
     if keys.first_seed is not None and keys.first_seed + most - 1 > LARGEST_SEED:
         found = f"found a last seed above {LARGEST_SEED}, the largest"
         raise mapping.error("first_seed", f"first_seed: {found}")
+    _refuse_unused(mapping, keys)
     worlds = _entries(WorldKeys, mapping, "worlds", _world_text)
     _read_parameters(mapping["robots"] or {}, file.parent)
     robots = _entries(RobotKeys, mapping, "robots", lambda value: "model")
@@ -351,6 +352,19 @@ def read_campaign(file: Path) -> Campaign:
                 found = f"{name}: params: found controller {controller!r}"
                 raise mapping["worlds"].error(name, f"{found}, expected one of {known}")
     return Campaign(file.resolve(), keys, worlds, robots, controllers, factors)
+
+
+def _refuse_unused(mapping: Mapping, keys: CampaignKeys) -> None:
+    """Raises GeneratorError for a key that has no effect in the plan or task of its kind."""
+    unused = {"plan": ["most_replicates"] if keys.plan.kind != "until" else [], "task": []}
+    if keys.task.kind == "free":
+        of_both = ("kind", "damage_penalty_m")
+        unused["task"] = [f.name for f in dataclasses.fields(TaskKeys) if f.name not in of_both]
+    for group, names in unused.items():
+        for name in names:
+            if name in mapping.get(group, {}):
+                found = f"{name}: found it in a {group} of kind {getattr(keys, group).kind}"
+                raise mapping[group].error(name, f"{found}, where it has no effect, expected none")
 
 
 def _read_parameters(robots: Mapping, folder: Path) -> None:

@@ -122,7 +122,8 @@ class Driven:
         uses = [use for use in self._topics if use != "command"]
         if "command" not in self._topics:
             raise GeneratorError(f"robot {self._name}: topics: found no use 'command'")
-        if self._has_pace_sensor and self._keys.pace not in uses:
+        is_needed = self._has_pace_sensor or self._keys.pace != RobotKeys().pace
+        if is_needed and self._keys.pace not in uses:
             found = f"pace: found {self._keys.pace!r}"
             raise GeneratorError(
                 f"robot {self._name}: {found}, {known_names(self._keys.pace, uses)}"

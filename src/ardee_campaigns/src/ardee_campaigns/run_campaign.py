@@ -16,6 +16,7 @@ from ardee_campaigns.page_view import Page
 from ardee_campaigns.plan import Cell, Job, Planner, about
 from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file, noted_file
 from ardee_common.cli import Parser, say, whole_in
+from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError, WorkersError, known_names
 from ardee_common.output import locked
 from ardee_common.process import Ended, end_by_signals
@@ -77,10 +78,20 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         " port (default: 8080; 0: any free one); needs viser",
     )
     args = parser.parse_args(argv)
+    _check_flags(parser, args)
+    return args
+
+
+def _check_flags(parser: Parser, args: argparse.Namespace) -> None:
+    """Ends with an error for a flag that would have no effect."""
     for flag, is_given in (("--bag", args.bag), ("--view", args.view is not None)):
         if is_given and not args.replay:
             parser.error(f"{flag}: found no --replay, expected the run that it is for")
-    return args
+    kept = [flag for flag in ("list", "replay") if getattr(args, flag)]
+    unused = [flag for flag in ("csv", "retry_failed", "scheduler") if kept and getattr(args, flag)]
+    for flag in kept[1:] + unused:
+        found = f"found it with --{kept[0]}, which works no campaign off"
+        parser.error(f"--{flag.replace('_', '-')}: {found}, expected one of them")
 
 
 def _shipped() -> Dict[str, Path]:
@@ -352,6 +363,10 @@ def _replay(session: Session, args: argparse.Namespace) -> int:
 def _command(args: argparse.Namespace) -> int:
     campaign = read_campaign(_found(args.file))
     folder = (args.output or Path("campaign_output") / campaign.keys.name).resolve()
+    placed = read_yaml_lines(campaign.file)
+    if args.scheduler and "workers" in placed:
+        found = "found it with --scheduler, whose workers do the runs"
+        raise placed.error("workers", f"workers: {found}, expected none")
     session = Session(campaign, folder)
     if args.list:
         _list(session)

@@ -13,6 +13,7 @@ from ardee_common.errors import GeneratorError
 from ardee_common.output import output_folder, write_file
 
 PROG = "overlay"
+TOPIC = "/scan"
 FOLLOWER = "ardee_navigation.control:make"
 
 
@@ -57,7 +58,7 @@ def _parser() -> Parser:
         metavar="RUN",
         help="rosbag, CSV file as lidar_log.csv, or folder of one: a scan a line, the time [ms], then ranges [mm]",
     )
-    parser.add_argument("--topic", default="/scan", help="of the scans in a rosbag")
+    parser.add_argument("--topic", help=f"of the scans in a rosbag (default: {TOPIC})")
     _runs_arguments(parser)
     parser.add_argument(
         "--factory", default=FOLLOWER, metavar="MODULE:FUNCTION", help="makes the controller"
@@ -99,6 +100,20 @@ def _params(texts: Sequence[str]) -> Dict[str, Any]:
         if not is_there:
             raise GeneratorError(f"--param: found {text!r}, expected NAME=VALUE")
     return found
+
+
+def _refuse_unused(args: argparse.Namespace, is_campaign: bool) -> None:
+    """Raises GeneratorError for an argument that would have no effect."""
+    for name in () if is_campaign else ("runs", "run", "where", "campaign"):
+        if getattr(args, name):
+            raise GeneratorError(
+                f"--{name}: found it with {args.simulated}, which is no campaign's folder"
+            )
+    if args.runs and args.run:
+        raise GeneratorError("--runs: found it with --run, expected one of them")
+    recorded = [args.real] if is_campaign else [args.real, args.simulated]
+    if args.topic and not any(path.suffix == ".bag" for path in recorded):
+        raise GeneratorError(f"--topic: found {args.topic!r} without a .bag file, expected one")
 
 
 def _run_ids(args: argparse.Namespace) -> List[str]:
@@ -190,16 +205,13 @@ def _overlay(args: argparse.Namespace) -> Path:
 
     make, params = load_function(args.factory, "--factory"), _params(args.param)
     is_campaign = sources.is_campaign(args.simulated)
-    for name in () if is_campaign else ("runs", "run", "where", "campaign"):
-        if getattr(args, name):
-            raise GeneratorError(
-                f"--{name}: found it with {args.simulated}, which is no campaign's folder"
-            )
-    real_scans = sources.read_recorded(args.real, args.topic)
+    _refuse_unused(args, is_campaign)
+    topic = args.topic or TOPIC
+    real_scans = sources.read_recorded(args.real, topic)
     if is_campaign:
         scans = sources.rerun(args.simulated, _run_ids(args), args.campaign, PROG)
     else:
-        scans = [(args.simulated.stem, sources.read_recorded(args.simulated, args.topic))]
+        scans = [(args.simulated.stem, sources.read_recorded(args.simulated, topic))]
     looked = []
     for name, one in steps(PROG, [(f"real: {args.real.name}", real_scans), *scans]):
         looked.append(look.look(name, one, make, params, args.lidar_ahead_m))

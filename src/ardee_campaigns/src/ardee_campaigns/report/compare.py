@@ -43,7 +43,7 @@ def _parser() -> Parser:
 
 
 def _compare(args: argparse.Namespace) -> str:
-    from ardee_campaigns.report import comparison
+    from ardee_campaigns.report import comparison, statistics
     from ardee_campaigns.report.page import Page
     from ardee_campaigns.report.runs import chosen, factor_named, read, short
 
@@ -53,6 +53,9 @@ def _compare(args: argparse.Namespace) -> str:
     if len(levels) < 2:
         found = f"found {len(levels)} values in the {len(runs)} runs that did not fail"
         raise GeneratorError(f"--by {args.by}: {found}, expected 2 or more")
+    if args.base and statistics.is_scale(runs, factor):
+        found = f"found {args.base!r} for {short(factor)}, a scale"
+        raise GeneratorError(f"--base: {found} with a slope instead of differences, expected none")
     base = comparison.base_level(runs, factor, args.base)
     name = f"compare_{short(factor)}"
     with output_folder(args.output or args.campaign) as folder:
