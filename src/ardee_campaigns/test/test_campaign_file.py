@@ -4,12 +4,14 @@ import itertools
 import math
 from datetime import date
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, Dict
 
 import pytest
 import small_campaign
 from PIL import Image
 
+from ardee_campaigns import identity
 from ardee_campaigns.campaign_file import CampaignKeys, ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
@@ -222,6 +224,38 @@ def test_files_of_options_lie_beside_the_campaigns_file(
     job = planner.job(planner.cells[0], 0, tmp_path)
     sow(job, tmp_path / "models")
     assert "weed_" in (tmp_path / "models" / "tiny" / "model.sdf").read_text()
+
+
+def test_a_run_is_known_by_the_files_and_models_of_its_field(tmp_path: Path) -> None:
+    model, image = tmp_path / "own" / "my_corn", tmp_path / "stones.png"
+    (model / "meshes").mkdir(parents=True)
+    options = {"model_path": ["own"], "models": ["my_corn"], "stone_image": "stones.png"}
+    worlds = {"a": {"field": "tiny.yaml", "options": options}, "b": "tiny.yaml"}
+    for file in (model / "model.config", model / "meshes" / "leaf.obj", image):
+        file.touch()
+    campaign, found = read_campaign(small_campaign.write(tmp_path, worlds=worlds)), []
+    for changed in (None, model / "meshes" / "leaf.obj", image, None):
+        if changed:
+            changed.write_text("other")
+        planner = Planner(campaign)
+        found.append([planner.job(cell, 0, tmp_path).run_id for cell in planner.cells[::2]])
+    assert len({own for own, _ in found}) == 3 and found[2] == found[3]
+    assert len({other for _, other in found}) == 1
+
+
+def test_a_run_is_known_by_the_simulators_build_and_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    core, sower = tmp_path / "_core.so", tmp_path / "sower" / "trial.py"
+    sower.parent.mkdir()
+    monkeypatch.setattr(identity, "find_spec", lambda name: SimpleNamespace(origin=str(core)))
+    monkeypatch.setattr(identity.trial, "__file__", str(sower))
+    found = []
+    for build, code in ((b"1", "x = 1"), (b"2", "x = 1"), (b"2", "x = 2"), (b"1", "x = 1")):
+        core.write_bytes(build)
+        sower.write_text(code)
+        found.append(identity.engine_digest.__wrapped__())
+    assert len(set(found)) == 3 and found[0] == found[3]
 
 
 def test_the_half_width_of_an_interval_is_students() -> None:

@@ -7,13 +7,12 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Tuple
-from xml.etree import ElementTree
 
 import numpy as np
-from ardee_sim.packages import find_package
 
 from ardee_campaigns import controllers, measures, robot, tables, worlds
 from ardee_campaigns.campaign_file import Campaign, CampaignKeys, FactorKeys, Value
+from ardee_campaigns.identity import Digests, engine_digest, engine_version
 from ardee_common.config import Mapping as Placed
 from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError
@@ -58,12 +57,6 @@ def seed_of(keys: CampaignKeys, world: str, replicate: int) -> int:
 
 def _digest(value: Any) -> bytes:
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).digest()
-
-
-def engine_version() -> str:
-    """Returns the version of the simulator."""
-    package = ElementTree.parse(find_package("ardee_world") / "package.xml")
-    return package.findtext("version", "")
 
 
 def cells(campaign: Campaign) -> List[Cell]:
@@ -115,7 +108,9 @@ class Planner:
         self._placed = read_yaml_lines(campaign.file)
         self._files: Dict[str, worlds.WorldFiles] = {}
         self._urdfs: Dict[str, str] = {}
-        self._versions = engine_version()
+        self._engine = engine_digest()
+        self._digests = Digests()
+        self._parts: Dict[str, str] = {}
         folder = campaign.file.parent
         try:
             measures.check(campaign.keys.measures, list(campaign.factors))
@@ -194,6 +189,16 @@ class Planner:
             self._urdfs[key] = robot.expand(keys, factors, self.campaign.file.parent)
         return self._urdfs[key]
 
+    def _parts_digest(self, cell: Cell) -> str:
+        """Returns a hash of the files and models of which the world of a cell is made."""
+        factors = factors_of(self.campaign, cell, "field")
+        key = json.dumps([cell.world, factors], sort_keys=True)
+        if key not in self._parts:
+            keys, files = self.campaign.worlds[cell.world], self._files[cell.world]
+            parts = worlds.parts(keys, files, factors, self.campaign.file.parent)
+            self._parts[key] = self._digests.of(parts)
+        return self._parts[key]
+
     def job(self, cell: Cell, replicate: int, folder: Path) -> Job:
         """Returns a run; its robot's description is to be written in `folder`."""
         campaign, keys = self.campaign, self.campaign.keys
@@ -203,7 +208,7 @@ class Planner:
         controller = campaign.controllers[cell.controller]
         world = campaign.worlds[cell.world]
         inputs = {
-            "world": self._contents[cell.world],
+            "world": [self._contents[cell.world], self._parts_digest(cell)],
             "options": [world.options or {}, factors_of(campaign, cell, "field")],
             "robot": [hashlib.sha256(urdf.encode()).hexdigest(), vars(campaign.robots[cell.robot])],
             "controller": [vars(controller), self._sources[cell.controller]],
@@ -211,7 +216,7 @@ class Planner:
             "names": [cell.world, cell.robot, cell.controller, cell.factors],
             "seed": [seed, replicate],
             "task": [vars(keys.task), keys.limit_sim_s, keys.measures, self._own_measures],
-            "engine": self._versions,
+            "engine": self._engine,
         }
         run_id = _digest(inputs).hex()[:_DIGITS]
         files = self._files[cell.world]

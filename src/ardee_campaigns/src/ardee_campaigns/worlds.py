@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Worlds of a campaign: their files, and a field sown in one for a run."""
+import contextlib
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Mapping, Optional
+from typing import Any, Dict, List, Mapping, Optional, Sequence
 from xml.etree import ElementTree
 
 from ardee_sim import packages
@@ -11,7 +12,9 @@ from ardee_sim.packages import find_package
 
 from ardee_campaigns.campaign_file import WorldKeys
 from ardee_common.errors import GeneratorError, known_names
+from ardee_models.lookup import find_model, search_path
 from ardee_world import trial
+from ardee_world.clutter import KINDS, has_items
 from ardee_world.field_config import FieldConfig
 from ardee_world.generate_field import make_configured
 from ardee_world.request import (
@@ -120,6 +123,33 @@ def _options(keys: WorldKeys, factors: Mapping[str, Any], folder: Path) -> Dict[
     made = {**(keys.options or {}), **factors}
     made = {name: tuple(v) if isinstance(v, list) else v for name, v in made.items()}
     return placed_values(made, folder)
+
+
+def parts(
+    keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any], folder: Path
+) -> List[Path]:
+    """Returns what a world is made of beside its own files: files that its recipe names, and folders of models.
+
+    Relative paths lie in `folder`. A model that is not there, or that the recipe is of, is left out.
+    """
+    names = trial.included_names(files.world) if files.world else []
+    found: List[Path] = []
+    own: Sequence[Path] = ()
+    if files.plan:
+        names = [name for name in names if name != files.plan.stem]
+        values = {**yaml_values(files.plan), **_options(keys, factors, folder)}
+        sources, config = configure({**values, "name": files.plan.stem})
+        names += [*sources.models, *([sources.terrain] if sources.terrain else [])]
+        for kind in KINDS:
+            if has_items(kind, config.clutter):
+                names += getattr(config.clutter, f"{kind}_models")
+        own = [Path(name) for name in values.pop("model_path", ())]
+        found = read_paths(values)
+    folders = search_path([*own, *map(Path, packages.model_folders())])
+    for name in dict.fromkeys(names):
+        with contextlib.suppress(GeneratorError):
+            found.append(find_model(name, folders))
+    return found
 
 
 def sow(

@@ -76,7 +76,7 @@ def check_runs(folder: Path, jobs: Sequence[Job]) -> None:
     ours = {job.run_id for job in jobs}
     others = (tables.read_run_head(folder, run_id) for run_id in tables.finished(folder))
     if any(head.row.status == tables.OK and head.row.run_id not in ours for head in others):
-        found = "found finished runs of another first seed, parameters, robot or program"
+        found = "found finished runs of another first seed, parameters, robot, program or build"
         raise GeneratorError(
             f"{folder.parent}: {found}, which would be erased; expected another --output"
         )
