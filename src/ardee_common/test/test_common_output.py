@@ -1,11 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Tests that a model directory is written whole or left unchanged."""
+import os
+import tempfile
 from pathlib import Path
 
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_common.output import model_directory, output_folder, write_file
+from ardee_common.output import (
+    locked,
+    model_directory,
+    output_folder,
+    remove_stale,
+    scratch_folder,
+    write_file,
+)
 
 
 def write(parent: Path, name: str, text: str) -> None:
@@ -72,3 +81,22 @@ def test_ctrl_c_amid_a_file_leaves_the_earlier_one(
     with pytest.raises(KeyboardInterrupt):
         write_file(tmp_path / "x", b"second")
     assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"first"]
+
+
+def test_what_killed_programs_left_is_removed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    names = (".a.host.1.new", ".b.host.2.new", "run_left", "run_in_use", "run_new", "other")
+    for name in names:
+        path = tmp_path / name
+        path.touch() if name[0] == "." else path.mkdir()
+        if name not in (".b.host.2.new", "run_new"):
+            os.utime(path, (0, 0))
+    with locked(tmp_path / "run_in_use"), scratch_folder("run_") as mine:
+        remove_stale(tmp_path)
+        there = {path.name for path in tmp_path.iterdir()}
+        assert there == {*names, mine.name} - {".a.host.1.new", "run_left"}
+        with pytest.raises(GeneratorError), locked(mine):
+            pass
+    assert not mine.exists()

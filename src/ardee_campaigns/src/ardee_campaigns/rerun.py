@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Does a run again: the same run, for it follows from its inputs and its controller's commands."""
 import math
-import tempfile
 from pathlib import Path
 from typing import Any, Iterator, Optional
 
@@ -10,9 +9,10 @@ import ardee_sim
 from ardee_campaigns import tables
 from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import Driven
-from ardee_campaigns.run import Show, Watch, run_here, run_one, sow
+from ardee_campaigns.run import SCRATCH, Show, Watch, run_here, run_one, sow
 from ardee_campaigns.task import set_down
 from ardee_common.errors import GeneratorError
+from ardee_common.output import scratch_folder
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
@@ -56,8 +56,8 @@ def do_again(job: Job, folder: Path, watch: Watch, show: Optional[Show] = None) 
 
 
 def _drive(job: Job, run: tables.RunFile, watch: Watch, show: Optional[Show]) -> None:
-    with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:
-        trial = sow(job, Path(work) / "models")
+    with scratch_folder(SCRATCH) as work:
+        trial = sow(job, work / "models")
         world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
         with ardee_sim.Simulation(world, seed=job.seed) as sim:
             keys = job.campaign.robots[job.cell.robot]

@@ -23,13 +23,14 @@ from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.robot import Driven, Observation
 from ardee_campaigns.task import Judge
 from ardee_common.errors import GeneratorError
-from ardee_common.output import FULL
+from ardee_common.output import FULL, scratch_folder
 from ardee_common.process import end_if_told
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
 _ADDRESS = re.compile(r"0x[0-9a-f]{6,}")  # of an object: differs from run to run
 _LONGEST_ERROR = 500
+SCRATCH = "ardee_drive_"  # begin of the names of folders for a run's temporary files
 Watch = Callable[[Observation], None]
 Show = Callable[[ardee_sim.Simulation, bool], None]  # of each period; whether the run is over
 
@@ -202,8 +203,8 @@ def run_here(
     """Returns the same of a run in this process. `is_traced` prints an error's traceback."""
     began, run, error = time.monotonic(), Run(job, show), ""
     try:
-        with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:
-            run.drive(Path(work), watch or (lambda observation: None))
+        with scratch_folder(SCRATCH) as work:
+            run.drive(work, watch or (lambda observation: None))
     except Exception as raised:
         if getattr(raised, "errno", None) in FULL:
             raise FullDisk(f"{tempfile.gettempdir()}: {os.strerror(raised.errno)}") from None

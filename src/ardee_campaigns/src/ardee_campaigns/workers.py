@@ -12,10 +12,11 @@ from distributed.scheduler import KilledWorker
 from ardee_campaigns import tables
 from ardee_campaigns.attempts import Attempts
 from ardee_campaigns.plan import Job
+from ardee_campaigns.replay import ROBOTS
 from ardee_campaigns.run import FullDisk, failed, work
 from ardee_common.cluster import LOST, connected
 from ardee_common.errors import WorkersError
-from ardee_common.output import FULL
+from ardee_common.output import FULL, remove_stale
 
 _MOST_LOSSES = 3  # of a run's workers, or of its file: then it has failed
 _NO_FILE = "its worker left no file in {}, expected one and the same folder for all workers"
@@ -23,7 +24,10 @@ Told = Callable[[Job, str], None]
 
 
 class Workers:
-    """Workers for the jobs of a campaign, as a context manager; each job's file is in the folder when it is done."""
+    """Workers for the jobs of a campaign, as a context manager; each job's file is in the folder when it is done.
+
+    The folder is locked.
+    """
 
     def __init__(self, folder: Path, address: Optional[str], workers: int) -> None:
         self._folder, self._address = folder, address
@@ -32,6 +36,8 @@ class Workers:
         self._opened: Optional[Client] = None
 
     def __enter__(self) -> "Workers":
+        for folder in (self._folder, self._folder / tables.FOLDER, self._folder / ROBOTS):
+            remove_stale(folder)
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -9,12 +9,14 @@ import re
 import shutil
 import socket
 import tempfile
+import time
 from pathlib import Path
 from typing import Iterator
 
 from ardee_common.errors import GeneratorError
 
 FULL = (errno.ENOSPC, errno.EDQUOT)  # error numbers of a full disk
+_STALE_S = 60.0  # a file is written in less; nothing that is older is left half written but by a killed program
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
@@ -109,3 +111,30 @@ def write_file(path: Path, data: bytes) -> None:
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def remove_stale(folder: Path) -> None:
+    """Removes files of write_file that killed programs left in a folder which this one has locked."""
+    for path in folder.glob(".*.new"):
+        if _is_stale(path):
+            path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def scratch_folder(prefix: str) -> Iterator[Path]:
+    """Makes a folder for temporary files; those of this prefix that killed programs left are removed."""
+    for path in Path(tempfile.gettempdir()).glob(f"{prefix}*"):
+        # One that is in use is locked, one of somebody else cannot be opened.
+        with contextlib.suppress(GeneratorError, OSError):
+            if _is_stale(path):
+                with locked(path):
+                    shutil.rmtree(path, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix=prefix) as name:
+        with locked(Path(name)):
+            yield Path(name)
+
+
+def _is_stale(path: Path) -> bool:
+    with contextlib.suppress(FileNotFoundError):
+        return time.time() - path.stat().st_mtime > _STALE_S
+    return False

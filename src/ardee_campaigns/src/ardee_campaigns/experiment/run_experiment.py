@@ -18,7 +18,7 @@ from ardee_campaigns.replay import note_file
 from ardee_campaigns.run_campaign import Session, exit_code
 from ardee_common.cli import Parser, say, seconds_shown
 from ardee_common.errors import GeneratorError
-from ardee_common.output import locked, output_folder, write_file
+from ardee_common.output import locked, output_folder, remove_stale, write_file
 from ardee_common.process import Ended
 from ardee_navigation.evaluation.scenario_files import Scenario
 from ardee_navigation.evaluation.scenarios import known_scenarios
@@ -151,6 +151,7 @@ def _experiment(args: argparse.Namespace, command: str) -> int:
     report = Report(output, f"Row following: {args.scenario}", command)
     with output_folder(output), locked(output):
         check_folder(output, args.scenario, seeds)
+        remove_stale(output)
         folder = output / CAMPAIGN
         (folder / tables.FOLDER).mkdir(parents=True, exist_ok=True)
         try:
