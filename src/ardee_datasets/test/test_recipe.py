@@ -164,7 +164,9 @@ def test_own_labels_that_cannot_be_are_refused(tmp_path: Path, labels: str, mess
 def test_cameras_stand_between_rows_of_one_plot(tmp_path: Path) -> None:
     """Half a row's spacing from those of their lane, 0.38 m, less what rows of seedlings wander."""
     plots = "options: {models: [corn_variant_1], row_length_m: 2.0, rows_per_plot: 3, plots_y: 2}"
-    (tmp_path / "recipe.yaml").write_text(f"fields: {{corn: {{{plots}}}}}\ncameras: {{front: {{sensor: realsense_d435}}}}\n")
+    (tmp_path / "recipe.yaml").write_text(
+        f"fields: {{corn: {{{plots}}}}}\ncameras: {{front: {{sensor: realsense_d435}}}}\n"
+    )
     recipe = read_recipe(tmp_path / "recipe.yaml")
     (scene,) = scenes(recipe)
     scenery = Scenery(scene, tmp_path)

@@ -72,7 +72,7 @@ class Robot:
     cameras: Dict[str, MountedCamera]
 
     def digest(self) -> str:
-        """Returns the sha256 of description and parameters; comments, in which xacro tells its file's place, are left out."""
+        """Returns the sha256 of description and parameters, without comments: xacro's tell where its file lies."""
         urdf = ElementTree.canonicalize(self.urdf)
         parameters = json.dumps(self.parameters, sort_keys=True)
         return hashlib.sha256(f"{urdf}\0{parameters}".encode()).hexdigest()

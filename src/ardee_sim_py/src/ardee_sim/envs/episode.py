@@ -103,7 +103,7 @@ class Episode:
 
 
 class RecordEpisode(gymnasium.Wrapper):
-    """Records the present episode of an environment of this package: the actions that wrappers within made of one's own."""
+    """Records the present episode of an environment of this package, with the actions that wrappers made."""
 
     def __init__(self, env: gymnasium.Env) -> None:
         super().__init__(env)
