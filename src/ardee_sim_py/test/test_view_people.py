@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests what people and programs may do to the viewer, without a browser."""
 import pathlib
+import socket
 from typing import Any, Dict, Iterator, Optional
 
 import ardee_sim
@@ -63,7 +64,8 @@ def test_pages_of_other_sites_are_not_answered(shown: Viewer) -> None:
         assert is_answered(port, page, "127.0.0.1") == expected, page
     # a foreign name that was made to point here
     assert not is_own_page(["http://evil.example:80"], ["evil.example:80"], "127.0.0.1")
-    assert is_own_page(["http://localhost:9000"], ["localhost:9000"], "127.0.0.1")
+    for name in ("localhost", f"{socket.gethostname().lower()}.local"):
+        assert is_own_page([f"http://{name}:9000"], [f"{name}:9000"], "127.0.0.1")
 
 
 def test_no_client_opens_a_tunnel(shown: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,8 @@ def is_own_page(origins: List[str], hosts: List[str], host: str) -> bool:
     if len(hosts) != 1 or origins != [f"http://{hosts[0]}"]:
         return False
     name = urlsplit(origins[0]).hostname or ""
-    if name in (host.lower(), "localhost", socket.gethostname().lower()):
+    machine = socket.gethostname().lower()
+    if name in (host.lower(), "localhost", machine, f"{machine}.local"):  # .local: by mDNS
         return True
     try:
         ipaddress.ip_address(name)
