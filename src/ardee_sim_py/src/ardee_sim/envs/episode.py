@@ -99,7 +99,7 @@ class Episode:
         """Repeats the episode in an environment of make(); yields what reset() returns, then what each step() does."""
         yield env.reset(options=self.replay)
         for action in self.actions:
-            yield env.step(np.array(action, np.float32))
+            yield env.step(np.array(action))
 
 
 class RecordEpisode(gymnasium.Wrapper):
