@@ -92,7 +92,7 @@ def test_ctrl_c_ends_an_experiment_and_leaves_nothing(
     words = ("--scenario", "energy_farm", "--runs", "50", "--output", str(tmp_path / "report"))
     command = ("rosrun", "ardee_navigation", "run_experiment", *words, *how)
     process = graph.spawn(*command, TMPDIR=str(work))
-    wait_until(lambda: list(work.glob("*/ardee_run_*")), "the first run", 60.0)
+    wait_until(lambda: list(work.glob("*/ardee_drive_*")), "the first run", 60.0)
     wait_until(lambda: any(last_started in line for line in at_work(work)), last_started, 60.0)
     process.interrupt()
     assert process.wait() == 130 and "Traceback" not in process.output()
