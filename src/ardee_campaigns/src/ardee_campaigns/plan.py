@@ -12,9 +12,10 @@ import numpy as np
 
 from ardee_campaigns import controllers, measures, robot, tables, worlds
 from ardee_campaigns.campaign_file import Campaign, CampaignKeys, FactorKeys, Value
-from ardee_campaigns.identity import Digests, engine_digest, engine_version
+from ardee_campaigns.identity import engine_digest, engine_version
 from ardee_common.config import Mapping as Placed
 from ardee_common.config import read_yaml_lines
+from ardee_common.digests import Digests
 from ardee_common.errors import GeneratorError
 
 _DIGITS = 16  # of a run_id

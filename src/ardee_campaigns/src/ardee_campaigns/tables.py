@@ -27,9 +27,8 @@ from ardee_common.output import write_file
 VERSION = 1  # of the tables
 RUNS, TIMINGS, SAMPLES, FOLDER = "runs.parquet", "timings.parquet", "samples.parquet", "runs"
 OK, FAILED = "ok", "failed"
-SCALES = (
-    "scales"  # key of the metadata of runs.parquet: names of the factors of a low and a high value
-)
+# Key of the metadata of runs.parquet: names of the factors of a low and a high value.
+SCALES = "scales"
 _COMPRESSION = "zstd"
 Factor = Union[float, str, bool]
 

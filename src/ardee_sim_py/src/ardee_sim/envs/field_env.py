@@ -259,7 +259,7 @@ class FieldEnv(gymnasium.Env):
         scene = self._scene
         if scene is None:
             raise RuntimeError("found a step before reset(), expected reset() first")
-        self.action = checks.vector(action, "action", 2)
+        self.action = checks.vector(action, "action", 2)  # RecordEpisode takes it from here
         v_m_s, w_rad_s = np.clip(self.action, -1.0, 1.0) * self._limits
         self._step_and_measure(scene, self._steps, v_m_s, w_rad_s)
         terms = self._task.reward(scene)
