@@ -81,6 +81,9 @@ def test_lone_pixels_are_those_of_a_world_without_the_others() -> None:
     leaning = {**eye, "v_m_s": (0, 1, 0), "readout_time_s": 0.5}
     moved = simulation(BEHIND).label_image(**leaning)
     assert sim.lone_pixels(instances[1:], **leaning).tolist() == [int((moved > 0).sum())]
+    beside = simulation(((0, 0.5, 0), "6 0.2 2"))  # from behind the camera past it
+    seen = beside.instance_image(**eye)
+    assert beside.lone_pixels([int(seen.max())], **eye) == [(seen > 0).sum()] and seen.any()
     with pytest.raises(ArdeeError, match="found instance 9, expected one of the scenery"):
         sim.lone_pixels([9], **eye)
 

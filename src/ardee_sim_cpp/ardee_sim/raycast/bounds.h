@@ -26,6 +26,11 @@ struct Bounds {
     result.upper.array() += margin;
     return result;
   }
+  /// Returns one of the eight corners; bit k of its number chooses the upper end of axis k.
+  Eigen::Vector3d corner(unsigned number) const {
+    const Eigen::Vector3d share(number & 1u, number >> 1 & 1u, number >> 2 & 1u);
+    return lower + share.cwiseProduct(upper - lower);
+  }
   Eigen::Vector3d center() const { return 0.5 * (lower + upper); }
   double radius() const { return empty() ? 0.0 : 0.5 * (upper - lower).norm(); }
   /// Returns the box about this box turned by `m` and moved by `p`.

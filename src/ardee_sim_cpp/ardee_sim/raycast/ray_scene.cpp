@@ -176,6 +176,29 @@ std::vector<Bounds> RayScene::scenery_boxes() const {
   return boxes;
 }
 
+void RayScene::for_each_part(
+    const std::function<void(const std::vector<Eigen::Vector3d>&)>& act) const {
+  std::vector<Eigen::Vector3d> corners;
+  for (const TraceableInstance* placed : impl_->scene.scenery.fixed()->places().places()) {
+    const Traceable& body = *placed->body;
+    const auto add = [&](const Eigen::Vector3d& p_B) {
+      corners.push_back(placed->p + placed->q * (placed->scale * p_B));
+    };
+    for (const TraceableTriangle& triangle : body.triangles) {
+      corners.clear();
+      for (const std::uint32_t vertex : triangle.vertices)
+        add(body.vertices[vertex].cast<double>());
+      act(corners);
+    }
+    for (std::size_t i = 0; i < body.primitives.size(); ++i) {
+      if (body.primitives[i].kind == Primitive::Kind::kBlock) continue;
+      corners.clear();
+      for (unsigned corner = 0; corner < 8; ++corner) add(body.primitive_bounds[i].corner(corner));
+      act(corners);
+    }
+  }
+}
+
 std::size_t RayScene::memory_bytes() const {
   return embree_bytes() + impl_->scene.local_scenes.bytes();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -61,6 +62,9 @@ class RayScene {
 
   /// Boxes about each place of the scenery, without infinite planes; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
+  /// Calls `act(corners_W)` with the corners of each triangle of the scenery, and of a box about
+  /// each other piece, without infinite planes; valid after prepare().
+  void for_each_part(const std::function<void(const std::vector<Eigen::Vector3d>&)>& act) const;
 
   /// Numbers for benchmarks: bytes of Embree (for all scenes of this process) and of local scenes,
   /// triangles of local scenes, and how many of them were taken into use so far.

@@ -26,11 +26,6 @@ constexpr int kMostMoments = 64;
 
 int tiles_along(int pixels, int side_px) { return (pixels + side_px - 1) / side_px; }
 
-bool overlap(const TileArea& a, const TileArea& b) {
-  return a.left < b.left + b.width && b.left < a.left + a.width && a.upper < b.upper + b.height &&
-         b.upper < a.upper + a.height;
-}
-
 /// Tiles of the picture of a camera in motion, and the ways of what they show.
 class MovingTiles {
  public:
@@ -131,8 +126,7 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
 }
 
 Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
-                             const RenderOptions& options,
-                             const std::optional<TileArea>& area) const {
+                             const RenderOptions& options) const {
   Frame frame;
   frame.width = camera.width;
   frame.height = camera.height;
@@ -148,12 +142,11 @@ Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
   RenderOptions once = options;
   once.samples = 1;
   if (camera.motion.is_seen()) {
-    render_moving(camera, parts, once, area, frame);
+    render_moving(camera, parts, once, frame);
     return frame;
   }
   const TileShading shading = shading_by(camera, once);
   const auto shade = [&](const TileArea& tile, TileWorker& worker) {
-    if (area && !overlap(*area, tile)) return;
     render_frame_tile(shading, tile, parts, worker, frame);
   };
   for_each_tile(camera, kTileSide_px, options.threads, shade);
@@ -161,8 +154,7 @@ Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
 }
 
 void Renderer::render_moving(const Camera& camera, const FrameParts& parts,
-                             const RenderOptions& options, const std::optional<TileArea>& area,
-                             Frame& frame) const {
+                             const RenderOptions& options, Frame& frame) const {
   MovingTiles tiles(camera);
   const auto render_at = [&](const TileArea& tile, double share, const FrameParts& which,
                              TileWorker& worker) {
@@ -171,7 +163,6 @@ void Renderer::render_moving(const Camera& camera, const FrameParts& parts,
     render_frame_tile(shading_by(then, options), tile, which, worker, frame);
   };
   const auto take_middle = [&](const TileArea& tile, TileWorker& worker) {
-    if (area && !overlap(*area, tile)) return;
     render_at(tile, 0.5, parts, worker);
     if (!parts.light) return;
     tiles.set_nearest(

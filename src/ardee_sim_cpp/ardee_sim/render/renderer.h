@@ -42,9 +42,8 @@ class Renderer {
   /// Renders what a sensor behind the lens receives, with one ray through the middle of each pixel;
   /// ignores `options.samples`. While the camera moves, light is the mean over the exposure, all
   /// else is that of its middle; four rows at a time share their times. The scene stands still.
-  /// Outside of `area` some pixels see nothing.
-  Frame render_frame(const Camera& camera, const FrameParts& parts, const RenderOptions& options,
-                     const std::optional<TileArea>& area = std::nullopt) const;
+  Frame render_frame(const Camera& camera, const FrameParts& parts,
+                     const RenderOptions& options) const;
 
  private:
   /// Calls `work(tile, worker)` for each tile of the picture, in parallel.
@@ -54,7 +53,7 @@ class Renderer {
     return {rays_, materials_, scene_, sky_, lights_, camera, options, store_};
   }
   void render_moving(const Camera& camera, const FrameParts& parts, const RenderOptions& options,
-                     const std::optional<TileArea>& area, Frame& frame) const;
+                     Frame& frame) const;
 
   const raycast::PictureTracer& rays_;
   const MaterialLibrary& materials_;

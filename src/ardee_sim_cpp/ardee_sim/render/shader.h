@@ -23,6 +23,9 @@ struct RenderOptions {
   /// Uses the approximate rays of PictureTracer, and fewer of them on even surfaces (render_frame
   /// only).
   bool approximate = false;
+  /// One for each pixel, row by row: whether it gets a ray; the others see nothing (render_frame
+  /// without `approximate` only). Null: all do.
+  const std::vector<bool>* wanted = nullptr;
 };
 
 /// Inputs of the shading of a part of a picture.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "ardee_sim/render/tone.h"
 
@@ -45,7 +46,7 @@ class Tile {
   /// Renders one ray through the middle of each pixel.
   void render_frame(const FrameParts& parts, Frame& frame) {
     const bool approximate = parts.light && s_.options.approximate;
-    if (parts.depth || parts.ids || !approximate) enqueue_all();
+    if (parts.depth || parts.ids || !approximate) enqueue_all(frame);
     if (parts.depth || parts.ids) write_hits(parts, frame);
     if (approximate) {
       shader_.clear();
@@ -54,19 +55,20 @@ class Tile {
     if (approximate || !parts.light) return;
     shader_.flush();
     for (std::size_t k = 0; k < shader_.samples().size(); ++k) {
-      frame.light[index_in(frame, k)] = shader_.samples()[k].light;
+      frame.light[pixels_[k]] = shader_.samples()[k].light;
     }
   }
 
  private:
-  std::size_t index_in(const Frame& frame, std::size_t pixel) const {
-    const int k = static_cast<int>(pixel);
-    return frame.index(area_.left + k % area_.width, area_.upper + k / area_.width);
-  }
-
-  void enqueue_all() {
-    for (int k = 0; k < area_.width * area_.height; ++k) {
-      shader_.enqueue(area_.left + k % area_.width + 0.5, area_.upper + k / area_.width + 0.5);
+  /// Begins with a ray through each pixel that is wanted.
+  void enqueue_all(const Frame& frame) {
+    for (int row = area_.upper; row < area_.upper + area_.height; ++row) {
+      for (int column = area_.left; column < area_.left + area_.width; ++column) {
+        const std::size_t pixel = frame.index(column, row);
+        if (s_.options.wanted != nullptr && !(*s_.options.wanted)[pixel]) continue;
+        pixels_.push_back(pixel);
+        shader_.enqueue(column + 0.5, row + 0.5);
+      }
     }
   }
 
@@ -98,7 +100,7 @@ class Tile {
     for (std::size_t k = 0; k < of_pixel.size(); ++k) {
       const raycast::RayHit& hit = of_pixel[k];
       const bool met = hit.entity != raycast::kNoEntity;
-      const std::size_t at = index_in(frame, k);
+      const std::size_t at = pixels_[k];
       if (parts.depth) {
         const double range_m = samples[k].travelled_m + static_cast<double>(hit.range_m);
         frame.depth_m[at] = met ? static_cast<float>(range_m / samples[k].stretch)
@@ -116,6 +118,7 @@ class Tile {
   const TileArea area_;
   Shader& shader_;
   AdaptiveTile& adaptive_;
+  std::vector<std::size_t> pixels_;  // of render_frame(): the place of each sample in the frame
 };
 
 }  // namespace

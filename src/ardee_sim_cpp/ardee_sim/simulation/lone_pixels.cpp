@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "ardee_sim/raycast/ray_scene.h"
 #include "ardee_sim/render/renderer.h"
@@ -10,33 +11,70 @@
 namespace ardee {
 namespace {
 
-constexpr double kMargin_px = 8.0;  // a camera's path is not quite straight
+/// Width of the border about a part's pixels: much more than the error of its place, and so that it
+/// holds the way of a camera in motion, which is not quite straight.
+constexpr double kMargin_px = 0.1, kMovingMargin_px = 8.0;
+/// Depth of the plane at which a part is cut: only what lies in front has a place in a picture.
+constexpr double kLeastDepth_m = 1e-6;
 
-/// Returns an area that holds all pixels of these boxes.
-render::TileArea area_of(const std::vector<raycast::Bounds>& boxes, const render::Camera& camera) {
-  const render::TileArea whole{0, 0, camera.width, camera.height};
-  if (!camera.is_straight()) return whole;
-  Eigen::Array2d lower = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array2d upper = -lower;
-  const double open_s = camera.motion.exposure_time_s + camera.motion.readout_time_s;
-  for (const double time_s : {0.0, open_s}) {
+/// Returns points of which the convex hull is that of `corners`, as far as it lies in front of the
+/// camera.
+std::vector<Eigen::Vector3d> cut_in_front(const std::vector<Eigen::Vector3d>& corners,
+                                          const Pose& X_WC) {
+  const Eigen::Vector3d ahead_W = X_WC.q * Eigen::Vector3d::UnitX();
+  const auto depth_m = [&](const Eigen::Vector3d& point_W) {
+    return ahead_W.dot(point_W - X_WC.p) - kLeastDepth_m;
+  };
+  std::vector<Eigen::Vector3d> found;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double here_m = depth_m(corners[i]);
+    if (here_m >= 0.0) found.push_back(corners[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const double there_m = depth_m(corners[k]);
+      if ((here_m < 0.0) == (there_m < 0.0)) continue;
+      const double share = here_m / (here_m - there_m);
+      found.push_back(corners[i] + share * (corners[k] - corners[i]));
+    }
+  }
+  return found;
+}
+
+/// Marks the pixels that a part of the scenery with these corners may cover.
+void mark(const std::vector<Eigen::Vector3d>& corners, const render::Camera& camera,
+          std::vector<bool>& marked) {
+  const Eigen::Array2d size(camera.width, camera.height);
+  Eigen::Array2d lower = size, upper = Eigen::Array2d::Zero();
+  const bool moves = camera.motion.is_seen();
+  const double end_s = camera.motion.exposure_time_s + camera.motion.readout_time_s;
+  for (const double time_s : {0.0, moves ? end_s : 0.0}) {
     render::Camera then = camera;
     then.X_WC = camera.pose_at(time_s);
-    for (const raycast::Bounds& box : boxes) {
-      for (int corner = 0; corner < 8; ++corner) {
-        const Eigen::Vector3d share(corner & 1, corner >> 1 & 1, corner >> 2);
-        const auto pixel = then.project(box.lower + share.cwiseProduct(box.upper - box.lower));
-        if (!pixel) return whole;
+    for (const Eigen::Vector3d& point : cut_in_front(corners, then.X_WC)) {
+      if (const auto pixel = then.project(point)) {
         lower = lower.min(pixel->array());
         upper = upper.max(pixel->array());
       }
     }
   }
-  const Eigen::Array2d size(camera.width, camera.height);
-  lower = (lower - kMargin_px).floor().max(0.0).min(size);
-  upper = (upper + kMargin_px).ceil().max(0.0).min(size);
-  const Eigen::Array2i from = lower.cast<int>(), extent = (upper - lower).max(0.0).cast<int>();
-  return {from.x(), from.y(), extent.x(), extent.y()};
+  const double margin_px = 0.5 + (moves ? kMovingMargin_px : kMargin_px);
+  const Eigen::Array2i from = (lower - margin_px).ceil().max(0.0).min(size).cast<int>();
+  const Eigen::Array2i end = (upper + margin_px).floor().max(0.0).min(size).cast<int>();
+  for (int y = from.y(); y < end.y(); ++y) {
+    const auto row = marked.begin() + y * camera.width;
+    std::fill(row + from.x(), row + std::max(from.x(), end.x()), true);
+  }
+}
+
+/// Returns for each pixel, row by row, whether the scenery may cover it.
+std::vector<bool> marked_pixels(const raycast::RayScene& rays, const render::Camera& camera) {
+  const std::size_t count =
+      static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  std::vector<bool> marked(count, !camera.is_straight());
+  if (camera.is_straight()) {
+    rays.for_each_part(
+        [&](const std::vector<Eigen::Vector3d>& corners) { mark(corners, camera, marked); });
+  }
+  return marked;
 }
 
 }  // namespace
@@ -54,8 +92,9 @@ std::size_t lone_pixels(const Placement& placement, const render::Camera& camera
   parts.ids = true;
   render::RenderOptions how;
   how.threads = options.threads;
-  const render::Frame frame =
-      renderer.render_frame(camera, parts, how, area_of(rays.scenery_boxes(), camera));
+  const std::vector<bool> marked = marked_pixels(rays, camera);
+  how.wanted = &marked;
+  const render::Frame frame = renderer.render_frame(camera, parts, how);
   return frame.entities.size() -
          static_cast<std::size_t>(
              std::count(frame.entities.begin(), frame.entities.end(), raycast::kNoEntity));
