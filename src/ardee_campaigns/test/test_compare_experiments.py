@@ -69,6 +69,17 @@ def test_runs_are_paired_by_seed(tmp_path: Path, capsys: pytest.CaptureFixture) 
     assert f"{other}: 2 in 100.0 m: 2.00 per 100 m, 0.24 to 7.22" in text
 
 
+def test_a_pair_without_a_number_is_left_out_of_its_quantity(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    one = experiment(tmp_path / "one", [row(1, 0.010), row(2, 0.030), row(3, math.nan)])
+    other = experiment(tmp_path / "other", [row(1, 0.011), row(2, 0.033), row(3, 0.5)])
+    assert main(["compare_experiments", one, other]) == 0
+    text = capsys.readouterr().out
+    assert cells(text)["lateral RMS [cm], 2 pairs"][:3] == ["2.00", "2.20", "+0.20"]
+    assert "nan" not in text
+
+
 def test_pairs_without_any_way_are_left_out_and_said_so(
     tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:

@@ -17,6 +17,7 @@ from ardee_datasets.recipe import read_recipe
 from ardee_models.lookup import find_model, search_path
 from ardee_models.plant.plant_metrics import METRICS_FILE
 
+WEED = "{models: [corn_variant_1], row_length_m: 3.0, weed_models: [soybean], weed_density_per_m2: 3.0}"
 LABEL = 20
 RECIPE = """
 fields:
@@ -58,6 +59,13 @@ def test_a_named_label_is_a_category_of_a_set_with_its_model(
     assert {names[int(number)] for number in classes} == {"corn", "soybean"}
     assert "| soybean |" in (made / "README.md").read_text()
     assert show_dataset.main([str(made)]) == 0
+    (tmp_path / "weeds").mkdir()
+    of_weeds = RECIPE.replace("{models: [soybean, corn_variant_1], row_length_m: 3.0}", WEED)
+    weedy = generated(tmp_path / "weeds", f"{of_weeds}labels: {{soybean: {LABEL}}}\n")
+    drawn = [one for sample in samples(weedy) for one in sample["annotations"]]
+    weeds = [one for one in drawn if one["kind"] == "weed"]
+    assert {one["category_id"] for one in weeds} == {LABEL}
+    assert all((one["keypoints"], one["num_keypoints"]) == ([0, 0, 0], 0) for one in weeds)
     (tmp_path / "models" / "soybean" / "notes.txt").touch()
     with pytest.raises(SystemExit):
         main([str(tmp_path / "recipe.yaml"), "--output", str(made)])

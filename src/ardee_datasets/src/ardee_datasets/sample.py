@@ -14,6 +14,7 @@ from PIL import Image
 from ardee_common.output import write_file
 from ardee_datasets import rle
 from ardee_datasets.camera import CameraKeys
+from ardee_datasets.categories import OWN_LABELS
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.motion import Motion
 from ardee_datasets.plan import Scene, Shot
@@ -120,9 +121,9 @@ class View:
 
 
 def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> Dict[str, Any]:
-    """Returns the COCO keypoints of a plant, which are its foot; of clutter none."""
+    """Returns the COCO keypoints of a plant, which are its foot; of clutter none, or an unlabelled one for an own label."""
     if item.foot_m is None:
-        return {}
+        return {"keypoints": [0, 0, 0], "num_keypoints": 0} if item.label >= OWN_LABELS[0] else {}
     (apparent,) = view.apparent(item.foot_m[None])
     foot = foot_keypoint(apparent, view.K, view.X_WC, mask, depth_m)
     return {"keypoints": foot, "num_keypoints": int(foot[2] > 0)}

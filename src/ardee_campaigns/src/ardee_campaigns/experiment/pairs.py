@@ -6,8 +6,10 @@ A run of one is paired with the run of the other that has the same seed: in one 
 import math
 from typing import Dict, List, Sequence, Tuple
 
+import numpy as np
+
 from ardee_campaigns.report.runs import Runs
-from ardee_campaigns.report.statistics import Quantity, mean_interval, rate_per_100_m
+from ardee_campaigns.report.statistics import Quantity, mean, rate_per_100_m
 from ardee_common.errors import GeneratorError
 
 QUANTITIES = (
@@ -24,13 +26,17 @@ QUANTITIES = (
 
 
 def _difference(one: Runs, other: Runs, shown: Quantity) -> List[str]:
-    """Returns the cells of a quantity over runs in the same order."""
+    """Returns the cells of a quantity over runs in the same order, of pairs in which both have a number."""
     form, signed = f"{{:.{shown.digits}f}}".format, f"{{:+.{shown.digits}f}}".format
     values = [shown.scale * part[shown.name] for part in (one, other)]
-    found = mean_interval(values[1] - values[0])
-    means = [form(part.mean()) for part in values]
+    known = np.isfinite(values[1] - values[0])
+    if not known.any():
+        return [f"{shown.text}, no pairs", *"----"]
+    found = mean((values[1] - values[0])[known])
+    means = [form(part[known].mean()) for part in values]
+    count = "" if known.all() else f", {np.count_nonzero(known)} pairs"
     return [
-        shown.text,
+        shown.text + count,
         *means,
         signed(found.estimate),
         f"{signed(found.low)} to {signed(found.high)}",
