@@ -67,6 +67,14 @@ def test_worlds_are_compared_without_pairs(runs: Runs) -> None:
         assert shifted.pvalue == pytest.approx(0.05)
 
 
+def test_runs_in_one_field_count_once_in_a_mean(runs: Runs) -> None:
+    corn = runs.where(runs["world"] == "corn")
+    means = [part[np.isfinite(part)].mean() for part in by_seed(corn).values()]
+    assert len(means) < len(corn) / 2
+    found = statistics.field_mean(corn, "lateral_rms_m")
+    assert found == pytest.approx(statistics.mean_interval(means))
+
+
 def crossed(rng: np.random.Generator) -> Runs:
     """Returns runs of 5 fields, 6 values of x and 2 controllers; both have other effects y and z in each field."""
     field, x, other = (part.ravel() for part in np.indices((5, 6, 2)))

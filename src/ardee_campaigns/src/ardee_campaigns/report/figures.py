@@ -91,7 +91,7 @@ def _effect(axes: pyplot.Axes, runs: Runs, factor: str, measure: str) -> None:
             axes.plot(ends, np.polyval(np.polyfit(x, y, 1), ends), color=COLORS[0])
         return
     for number, level in enumerate(levels):
-        found = statistics.mean(runs[measure][runs[factor] == level])
+        found = statistics.field_mean(runs.where(runs[factor] == level), measure)
         axes.plot([number], [found.estimate], "o", color=COLORS[0], markersize=4.0)
         axes.plot([number] * 2, [found.low, found.high], color=COLORS[0], linewidth=1.5)
     axes.set_xlim(-0.5, len(levels) - 0.5)

@@ -61,7 +61,7 @@ class Report:
     def means(self) -> None:
         """Adds the mean of each measure, for each combination that is not a scale, and of all runs together."""
         self.page.heading("Means")
-        self.page.text("Mean of the runs, and its 95 % interval (Student); SI units.")
+        self.page.text("Mean of the fields' means, and its 95 % interval (Student, over the fields); SI units.")
         names = [name for name in (*NAMES, *self.runs.varied()) if name in self.runs.varied()]
         names = [n for n in dict.fromkeys(names) if not statistics.is_scale(self.runs, n)]
         names = names or [self.by]
@@ -77,7 +77,7 @@ class Report:
 
     def _mean_row(self, key: Sequence[Any], numbers: List[int]) -> List[str]:
         part = self.runs.where(np.array(numbers))
-        cells = [with_interval(statistics.mean(part[name])) for name in self.runs.measures]
+        cells = [with_interval(statistics.field_mean(part, name)) for name in self.runs.measures]
         return [*map(shown, key), str(len(part)), *cells]
 
     def middle_halves(self) -> None:

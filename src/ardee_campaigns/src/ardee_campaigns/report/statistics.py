@@ -62,6 +62,11 @@ def mean(values: np.ndarray) -> Interval:
     return mean_interval(known)
 
 
+def field_mean(runs: Runs, measure: str) -> Interval:
+    """Returns the mean of the fields' means of a measure, and its interval over the fields."""
+    return mean(_field_means(runs[measure], _fields(runs)))
+
+
 def iqm(values: np.ndarray, strata: Sequence[Hashable], seed: int = 0) -> Interval:
     """Returns the interquartile mean and the interval of a bootstrap that keeps the number of runs of each stratum."""
     finite = np.isfinite(values)
