@@ -39,6 +39,12 @@ def test_bare_ground_shows_no_lane() -> None:
         VisionParameters(estimator="magic")
 
 
+def test_the_horizon_in_low_sun_is_no_lane() -> None:
+    follower, picture = VisionFollower(), cv2.imread(str(DATA / "past_the_row.png"))[:, :, ::-1]
+    output = follower.update(picture, 0.0)
+    assert not output.is_valid and output.sight.confidence < VisionParameters().end_confidence
+
+
 def test_the_network_stays_small_enough_to_be_committed() -> None:
     assert NETWORK.stat().st_size <= 2_000_000
 

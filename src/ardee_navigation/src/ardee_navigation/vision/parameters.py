@@ -19,5 +19,6 @@ class VisionParameters(LaneParameters):
     camera_pitch_deg: float = bounded(-60.0, 60.0, 0.0)  # below the horizon [robot]
     horizontal_fov_deg: float = bounded(5.0, 170.0, 80.0)  # of view [robot]
     blend: float = bounded(0.01, 1.0, 0.3)  # weight of a new line against the one before [own]
-    min_confidence: float = bounded(0.0, 1.0, 0.3)  # less shows no lane [own]
-    end_confidence: float = bounded(0.0, 1.0, 0.2)  # less shows that no row lies ahead [own]
+    # Between what is seen past a row's end, at most 0.39 (low sun), and between rows of corn and sorghum, 0.49 or more
+    min_confidence: float = bounded(0.0, 1.0, 0.45)  # less shows no lane [own]
+    end_confidence: float = bounded(0.0, 1.0, 0.45)  # less shows that no row lies ahead [own]
