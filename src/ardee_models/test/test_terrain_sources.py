@@ -158,6 +158,16 @@ def test_degrees_become_metres_and_that_is_told(command, tmp_path):
     _check(tmp_path, 5e-3)
 
 
+def test_cells_of_a_web_map_are_as_large_as_on_the_ground_and_that_is_told(command, tmp_path):
+    # at 45 degrees north, by the radii of WGS-84's ellipsoid in the two directions
+    cell = (0.2 / 0.7083, 0.2 / 0.7059)
+    middle = rasterio.transform.from_origin(-9_818_379.0, 5_621_521.0, *cell)
+    _write_tiff(tmp_path / "d.tif", 9.0 + _grid(101, 20.0), cell, "EPSG:3857", middle)
+    code, error = command("--dem", tmp_path / "d.tif")
+    assert code == 0 and "m at its middle, 0.7083 times what they say" in error
+    _check(tmp_path, 5e-3)
+
+
 @pytest.mark.parametrize("kind", ["asc", "tif"])
 def test_holes_are_refused_with_their_place_or_filled(command, tmp_path, kind):
     heights = 5.0 + _grid(101, 20.0)
@@ -267,10 +277,13 @@ BAD = {
     "half.png": b"\x89PNG\r\n\x1a\n\0\0\0",
     "empty.asc": b"",
     "short.asc": b"ncols 2\nnrows 3\n" + CELLS + b"1 2\n3 4\n",
+    "long.asc": b"ncols 2\nnrows 2\n" + CELLS + b"1 2\n3 4 5\n",
+    "under.asc": b"ncols 2\nnrows 2\n" + CELLS + b"1 2\n3 1_0\n",
+    "nan.asc": b"ncols 2\nnrows 2\n" + CELLS + b"1 nan\n3 4\n",
     "word.asc": b"ncols 2\nnrows 2\n" + CELLS + b"1 2\n3 four\n",
     "all.asc": b"ncols 2\nnrows 2\n" + CELLS + b"NODATA_value 0\n0 0\n0 0\n",
     "high.asc": b"ncols 2\nnrows 2\n" + CELLS + b"1 2\n3 99999\n",
-    "huge.asc": b"ncols 20000\nnrows 2\n" + CELLS + b"1 2\n",
+    "huge.asc": b"ncols 20000\nnrows 2\n" + CELLS + 40000 * b"0 ",
     "float.asc": b"ncols 2.5\nnrows 2\n" + CELLS + b"1 2\n",
     "plain.tif": b"II*\0\x08\0\0\0",
     "bad.obj": b"v 0 0 0\nf 1 2 3\n",
@@ -288,7 +301,10 @@ BAD = {
         (("--image", "text.png"), "text.png: not a readable image"),
         (("--image", "half.png"), "half.png: not a readable image"),
         (("--dem", "empty.asc"), "empty.asc: not a readable elevation model"),
-        (("--dem", "short.asc"), "short.asc: not a readable elevation model"),
+        (("--dem", "short.asc"), "short.asc: found 4 values, expected 2 x 3 = 6"),
+        (("--dem", "long.asc"), "long.asc: found 5 values, expected 2 x 2 = 4"),
+        (("--dem", "under.asc"), "under.asc:7: found '3 1_0', expected numbers"),
+        (("--dem", "nan.asc"), "nan.asc: found 1 holes of 4 cells, the first in row 1, column 2"),
         (("--dem", "word.asc"), "word.asc:7: found '3 four', expected numbers"),
         (("--dem", "all.asc"), "all.asc: found no height at all"),
         (("--dem", "high.asc"), "high.asc: found a height of 99999 m"),
@@ -318,6 +334,19 @@ def test_bad_files_are_one_message_and_change_nothing(command, tmp_path, hash_of
 def test_a_tiff_without_a_scale_is_no_elevation_model(command, tmp_path):
     Image.fromarray(np.zeros((4, 4), np.float32)).save(tmp_path / "p.tif")
     assert "found the transform (1.0, 0.0, 0.0," in command("--dem", tmp_path / "p.tif")[1]
+
+
+def test_floats_of_an_image_are_shares_from_0_to_1(command, tmp_path):
+    heights = _grid(257, 20.0)
+    shares = ((heights - heights.min()) / np.ptp(heights)).astype(np.float32)
+    words = ("--image", tmp_path / "f.tif", "--size-m", "20", "--image-height-m", np.ptp(heights))
+    Image.fromarray(shares).save(tmp_path / "f.tif")
+    assert command(*words) == (0, "")
+    _check(tmp_path, 2e-3)
+    for factor, found in ((2.0, "0 to 2"), (np.nan, "nan to nan")):
+        Image.fromarray(shares * np.float32(factor)).save(tmp_path / "f.tif")
+        code, error = command(*words)
+        assert code == 2 and f"f.tif: found floats from {found}, expected 0 to 1 (" in error
 
 
 def test_an_image_must_be_square(command, tmp_path):

@@ -2,6 +2,7 @@
 """Makes terrain of a digital elevation model: ESRI ASCII grid (.asc) or GeoTIFF, holes refused or filled."""
 
 import logging
+import re
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +24,9 @@ _LARGEST_M = 9000.0  # ground beyond this height or depth points to a mistaken u
 _LARGEST_DEGREES = (
     0.5  # of a model in degrees: cells of a larger one differ by more than 1 % in width
 )
+_LARGEST_STRETCH = 0.01  # of a projection's lengths that is not corrected; UTM has 0.0004
+_NUMBER = re.compile(r"[-+]?(nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGNORECASE)
+_WHOLE = re.compile(r"\d{1,9}")
 _US_FOOT_M = 1200.0 / 3937.0
 # length of a unit of heights [m], by GDAL's names of units and those of the command
 UNITS_M = {"m": 1.0, "ft": 0.3048, "us-ft": _US_FOOT_M}
@@ -45,23 +49,31 @@ class Elevation:
 
 
 def _check_words(path: Path) -> None:
-    """Raises GeneratorError for a word of an ESRI ASCII grid that is no number: GDAL reads it as 0."""
+    """Raises GeneratorError for a word of an ESRI ASCII grid that is no number, or for a wrong count of values.
+
+    GDAL reads such a word as 0, and takes missing values for 0 too.
+    """
     try:
         lines = path.read_text(encoding="ascii").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise GeneratorError(f"{path}: cannot be read as text: {error}") from error
+    sizes, values = {}, 0
     for number, line in enumerate(lines, 1):
-        words, kind = line.split(), float
-        if number <= 7 and words and words[0][0].isalpha():  # a key of the header
-            kind = int if words[0].lower() in ("ncols", "nrows") else float
+        words, expected = line.split(), _NUMBER
+        key = words[0].lower() if words and number <= 7 else ""
+        if key[:1].isalpha() and key != "nan":  # a key of the header
             words = words[1:] or [""]
-        try:
-            for word in words:
-                kind(word)
-        except ValueError as error:
-            raise GeneratorError(
-                f"{path}:{number}: found {line.strip()[:60]!r}, expected numbers"
-            ) from error
+            if key in ("ncols", "nrows"):
+                sizes[key], expected = words[0], _WHOLE
+        else:
+            values += len(words)
+        if not all(map(expected.fullmatch, words)):
+            raise GeneratorError(f"{path}:{number}: found {line.strip()[:60]!r}, expected numbers")
+    columns, rows = (int(sizes.get(key, 0)) for key in ("ncols", "nrows"))
+    if columns and rows and values != columns * rows:
+        raise GeneratorError(
+            f"{path}: found {values} values, expected {columns} x {rows} = {columns * rows}"
+        )
 
 
 def _ground_cells_m(data: rasterio.DatasetReader, path: Path, say: Say) -> Tuple[float, float]:
@@ -70,23 +82,31 @@ def _ground_cells_m(data: rasterio.DatasetReader, path: Path, say: Say) -> Tuple
     if data.crs is None:
         say(f"{path}: has no coordinate reference system, so its cells are taken for metres")
         return cell_x, cell_y
-    if not data.crs.is_geographic:
-        unit_m = data.crs.linear_units_factor[1]
-        return cell_x * unit_m, cell_y * unit_m
-    if max(data.width * cell_x, data.height * cell_y) > _LARGEST_DEGREES:
+    is_geographic = data.crs.is_geographic
+    if is_geographic and max(data.width * cell_x, data.height * cell_y) > _LARGEST_DEGREES:
         raise GeneratorError(
             f"{path}: found {data.width * cell_x:g} x {data.height * cell_y:g} degrees, expected at most"
             f" {_LARGEST_DEGREES:g}, or a projected coordinate reference system"
         )
-    longitude, latitude = data.xy(0.5 * (data.height - 1), 0.5 * (data.width - 1))
-    ellipsoid = pyproj.CRS.from_user_input(data.crs).get_geod()
-    _, _, x_m = ellipsoid.inv(
-        longitude - 0.5 * cell_x, latitude, longitude + 0.5 * cell_x, latitude
+    reference = pyproj.CRS.from_user_input(data.crs)
+    unit_m = 1.0 if is_geographic else data.crs.linear_units_factor[1]
+    if reference.geodetic_crs is None:  # of a building site, say
+        return cell_x * unit_m, cell_y * unit_m
+    x, y = data.xy(0.5 * (data.height - 1), 0.5 * (data.width - 1))
+    degrees = pyproj.Transformer.from_crs(reference, reference.geodetic_crs, always_xy=True)
+    west_south = degrees.transform([x - 0.5 * cell_x, x], [y, y - 0.5 * cell_y])
+    east_north = degrees.transform([x + 0.5 * cell_x, x], [y, y + 0.5 * cell_y])
+    x_m, y_m = reference.get_geod().inv(*west_south, *east_north)[2]
+    if is_geographic:
+        say(f"{path}: is in degrees; its cells are {x_m:.6g} x {y_m:.6g} m at its middle")
+        return x_m, y_m
+    scale = x_m / (cell_x * unit_m)
+    if abs(scale - 1.0) <= _LARGEST_STRETCH:
+        return cell_x * unit_m, cell_y * unit_m
+    say(
+        f"{path}: its coordinates are stretched; its cells are {x_m:.6g} x {y_m:.6g} m at its middle,"
+        f" {scale:.4g} times what they say"
     )
-    _, _, y_m = ellipsoid.inv(
-        longitude, latitude - 0.5 * cell_y, longitude, latitude + 0.5 * cell_y
-    )
-    say(f"{path}: is in degrees; its cells are {x_m:.6g} x {y_m:.6g} m at its middle")
     return x_m, y_m
 
 
@@ -138,11 +158,12 @@ def read_elevation(path: Path, unit: Optional[str], say: Say) -> Elevation:
         raise GeneratorError(f"{path}: cannot be read: no such file")
     if is_text:
         _check_words(path)
-    driver = "AAIGrid" if is_text else "GTiff"
+    # The numbers of a grid without a point are floats too, as NaN is none of the integers
+    kind = {"driver": "AAIGrid", "DATATYPE": "Float64"} if is_text else {"driver": "GTiff"}
     try:
         with rasterio.Env(), warnings.catch_warnings():
             warnings.simplefilter("ignore", NotGeoreferencedWarning)
-            with rasterio.open(path.resolve(), driver=driver) as data:
+            with rasterio.open(path.resolve(), **kind) as data:
                 return _read(data, path, unit, say)
     except (RasterioError, OSError, pyproj.exceptions.CRSError, ValueError) as error:
         raise GeneratorError(f"{path}: not a readable elevation model: {error}") from error

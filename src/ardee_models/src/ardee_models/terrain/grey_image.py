@@ -23,6 +23,17 @@ class GreyImage:
     white: int
 
 
+def _floats(shares: np.ndarray, path: Path) -> GreyImage:
+    """Makes 16-bit pixels of floats from 0 to 1."""
+    least, greatest = shares.min(), shares.max()
+    if not (least >= 0.0 and greatest <= 1.0):  # true for NaN
+        raise GeneratorError(
+            f"{path}: found floats from {least:g} to {greatest:g}, expected 0 to 1"
+            " (generate_terrain --dem takes heights in metres)"
+        )
+    return GreyImage(np.rint(shares * 65535.0).astype(np.int64), 65535)
+
+
 def _grey(image: Image.Image, path: Path) -> GreyImage:
     if max(image.size) > MAX_SIDE_PX:
         raise GeneratorError(
@@ -32,6 +43,8 @@ def _grey(image: Image.Image, path: Path) -> GreyImage:
         return GreyImage(np.asarray(image).astype(np.int64), 65535)
     if image.mode == "1":
         return GreyImage(np.asarray(image).astype(np.int64), 1)
+    if image.mode == "F":
+        return _floats(np.asarray(image), path)
     return GreyImage(np.asarray(image.convert("L")).astype(np.int64), 255)
 
 
