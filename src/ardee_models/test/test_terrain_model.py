@@ -26,6 +26,8 @@ def test_ridges_stand_on_the_rows_and_lanes_are_level():
     )
     # The place is half way down the raised cosine.
     assert ridge_profile(np.array([0.5 * s + 0.125]), params)[0] == pytest.approx(0.025)
+    close = TerrainParams(row_spacing_m=0.3)  # with furrows as deep, if narrower
+    np.testing.assert_allclose(ridge_profile(np.array([0.0, 0.15]), close), [0.0, 0.05], atol=1e-12)
 
 
 def test_bumps_have_the_given_deviation_and_nothing_stands_over_the_origin():

@@ -151,6 +151,7 @@ def test_surface_and_look_reach_the_model(command, tmp_path, hash_of):
 
 def test_a_recipe_of_form_mesh_is_the_same_ground_of_triangles(command, tmp_path):
     text = GOOD.replace("look:", "# ").replace("samples: 257", "samples: 65")
+    text = text.replace("{size_m: 0.2", "{size_m: 0.7")
     (tmp_path / "r.yaml").write_text(text + "form: mesh\n")
     assert command(tmp_path / "r.yaml", "--name", "g", "--output", tmp_path) == (0, "")
     root = ElementTree.parse(tmp_path / "g/model.sdf").getroot()
@@ -187,9 +188,36 @@ def test_bad_recipes_name_file_and_line(command, tmp_path, hash_of, line, messag
     assert hash_of(tmp_path / "out") == before
 
 
+def test_the_second_friction_of_a_recipe_is_by_default_its_first(tmp_path):
+    (tmp_path / "r.yaml").write_text("surface: {mu: 0.3}\n")
+    assert read_recipe(tmp_path / "r.yaml").surface.mu2 == 0.3
+
+
+def test_parts_too_fine_for_the_pixels_are_told(command, tmp_path):
+    text = "ridges: {spacing_m: 1.5}\nclods: [{size_m: 0.2}, {size_m: 1.9}]\n"
+    (tmp_path / "r.yaml").write_text(text)
+    words = (tmp_path / "r.yaml", "--name", "g", "--output", tmp_path)
+    code, error = command(*words, "--size-m", 16, "--samples", 17)
+    assert code == 0 and error.splitlines() == [
+        f"generate_terrain: warning: terrain {part}, expected at least two pixels of 1 m, or more samples"
+        for part in (
+            "ridges spacing: found 1.5 m",
+            "clods size: found 0.2 m",
+            "clods size: found 1.9 m",
+        )
+    ]
+    assert command(*words, "--size-m", 16, "--samples", 257) == (0, "")
+
+
 @pytest.mark.parametrize(
     "change",
-    [{"samples": 500}, {"size_m": -1.0}, {"seed": -1}, {"ridges": (Ridges(spacing_m=0.0),)}],
+    [
+        {"samples": 500},
+        {"size_m": -1.0},
+        {"seed": -1},
+        {"ridges": (Ridges(spacing_m=0.0),)},
+        {"ridges": (Ridges(spacing_m=0.3, half_width_m=0.16),)},
+    ],
 )
 def test_bad_recipes_are_refused(change):
     with pytest.raises(GeneratorError, match="terrain .*found .* expected"):

@@ -17,7 +17,7 @@ from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
 from ardee_models.terrain.image import image_terrain
 from ardee_models.terrain.mesh_terrain import centred, check_lies, read_mesh
-from ardee_models.terrain.recipe import Look, Surface, read_recipe
+from ardee_models.terrain.recipe import Look, Surface, read_recipe, too_fine
 from ardee_models.terrain.recipe_model import write_recipe
 from ardee_models.terrain.terrain_model import write_terrain
 from ardee_models.terrain.terrain_obj import write_mesh_terrain
@@ -185,6 +185,8 @@ def make_terrain(args: argparse.Namespace) -> Path:
         given = {"size_m": args.size_m, "samples": args.samples, "seed": args.seed}
         given["surface"] = _surface(args, recipe.surface)
         recipe = dataclasses.replace(recipe, **{k: v for k, v in given.items() if v is not None})
+        for text in too_fine(recipe):
+            _warn(text)
         return write_recipe(recipe, args.name, args.image_name, args.output)
     if args.image:
         _refuse(args, (*plain, "seed"), "--image")

@@ -98,7 +98,8 @@ class Terrain:
 def ridge_profile(y_m: np.ndarray, params: TerrainParams) -> np.ndarray:
     """Raised cosine over each crop row at y = spacing (k + 1/2), flat between."""
     distance = np.abs((y_m / params.row_spacing_m) % 1.0 - 0.5) * params.row_spacing_m
-    inside = np.minimum(distance / params.ridge_half_width_m, 1.0)
+    half_width_m = min(params.ridge_half_width_m, 0.5 * params.row_spacing_m)
+    inside = np.minimum(distance / half_width_m, 1.0)
     return params.ridge_height_m * np.cos(0.5 * np.pi * inside) ** 2
 
 

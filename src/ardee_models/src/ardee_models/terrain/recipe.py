@@ -4,7 +4,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Tuple
+from typing import Any, Iterator, Tuple
 
 from ardee_common.config import build, read_yaml_lines
 from ardee_common.errors import GeneratorError
@@ -89,7 +89,11 @@ class Surface:
     """Numbers of the contact with wheels: friction along and across, stiffness and damping."""
 
     mu: float = option(0.8, "friction coefficient (rubber on firm soil)", (1e-6, 100.0))
-    mu2: float = option(0.8, "friction coefficient in the second direction", (1e-6, 100.0))
+    mu2: float = option(
+        0.8,
+        "friction coefficient in the second direction; that of mu if only mu is given",
+        (1e-6, 100.0),
+    )
     kp: float = option(100_000.0, "contact stiffness [N/m] (thesis Listing A.23)", (1.0, 1e12))
     kd: float = option(10_000.0, "contact damping [N s/m]", (0.0, 1e12))
 
@@ -146,6 +150,12 @@ class Recipe:
         parts = (*self.ridges, *self.headland, *self.ruts, *self.clods, self.slope, *self.ditches)
         for part in (*parts, self.surface, self.look, *self.look.blends):
             check(part, f"terrain {type(part).__name__.lower()} ")
+        for ridges in self.ridges:
+            if ridges.half_width_m > 0.5 * ridges.spacing_m:
+                raise GeneratorError(
+                    f"terrain ridges half width: found {ridges.half_width_m:g} m, expected at most half"
+                    f" of their spacing, {0.5 * ridges.spacing_m:g} m"
+                )
         if (
             not 1 <= len(self.look.textures) <= 5
             or len(self.look.blends) < len(self.look.textures) - 1
@@ -162,12 +172,28 @@ class Recipe:
             )
 
 
+def too_fine(recipe: Recipe) -> Iterator[str]:
+    """Yields a warning for each part of a recipe that its pixels are too coarse for."""
+    pixel_m = recipe.size_m / (recipe.samples - 1)
+    sizes = [("ridges", "spacing", ridges.spacing_m) for ridges in recipe.ridges]
+    sizes += [("clods", "size", clods.size_m) for clods in recipe.clods]
+    for part, what, size_m in sizes:
+        if pixel_m > 0.5 * size_m:
+            yield (
+                f"terrain {part} {what}: found {size_m:g} m, expected at least two pixels of {pixel_m:g} m,"
+                " or more samples"
+            )
+
+
 def read_recipe(path: Path) -> Recipe:
-    """Reads a recipe from its YAML file; a single ridges or headland mapping needs no list."""
+    """Reads a recipe from its YAML file; a single ridges or headland mapping needs no list, and mu2 is by default mu."""
     mapping = read_yaml_lines(path)
     for key in ("ridges", "headland"):
         if isinstance(mapping.get(key), dict):
             mapping[key] = [mapping[key]]
+    surface = mapping.get("surface")
+    if isinstance(surface, dict) and "mu" in surface:
+        surface.setdefault("mu2", surface["mu"])
     recipe = build(Recipe, mapping)
     try:
         recipe.validate()
