@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from pictures import picture_of, rotation
 
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lane_following import State
 from ardee_navigation.vision import VisionFollower, VisionParameters
 from ardee_navigation.vision.camera import Camera
@@ -105,6 +106,18 @@ def test_pictures_may_change_their_size() -> None:
         assert sights[-1].lateral_offset_m == pytest.approx(0.05, abs=0.03)
         assert sights[-1].heading_rad == pytest.approx(0.0, abs=0.02)
     assert sights[2] == sights[0] != sights[1]
+
+
+@pytest.mark.parametrize("size_px", [(1, 160), (15, 15), (16, 65), (65, 16), (1000, 3)])
+def test_a_picture_too_small_or_narrow_is_refused_and_changes_nothing(size_px: tuple) -> None:
+    """A picture of 1 x 160 pixels, shrunk to a width of 160, would take gigabytes."""
+    follower, others = VisionFollower(P), VisionFollower(P)
+    picture = picture_of(CAMERA, 0.05, 0.0)
+    follower.update(picture, 0.0)
+    with pytest.raises(GeneratorError, match=f"found a picture of {size_px[0]} x {size_px[1]} p"):
+        follower.update(np.zeros((*size_px[::-1], 3), np.uint8), DT_S)
+    others.update(picture, 0.0)
+    assert follower.update(picture, 2 * DT_S) == others.update(picture, 2 * DT_S)
 
 
 def test_what_is_seen_is_drawn_where_it_is() -> None:

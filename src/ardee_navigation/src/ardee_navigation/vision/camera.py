@@ -3,12 +3,25 @@
 import math
 from dataclasses import dataclass
 
+from ardee_common.errors import GeneratorError
 from ardee_navigation.vision.rows import RowModel
+
+_LEAST_PX, _LARGEST_RATIO = 16, 4  # of a picture's sides
 
 
 def shrunk_height_px(width_px: int, height_px: int, to_width_px: int) -> int:
     """Returns the height of a picture shrunk to a width."""
     return round(height_px * to_width_px / width_px)
+
+
+def check_size(width_px: int, height_px: int) -> None:
+    """Raises GeneratorError for a picture too small or narrow: shrunk to a width, the latter is without bound."""
+    shorter, longer = sorted((width_px, height_px))
+    if shorter < _LEAST_PX or longer > _LARGEST_RATIO * shorter:
+        expected = f"at least {_LEAST_PX} a side, and 1:{_LARGEST_RATIO} to {_LARGEST_RATIO}:1"
+        raise GeneratorError(
+            f"found a picture of {width_px} x {height_px} pixels, expected {expected}"
+        )
 
 
 @dataclass(frozen=True)

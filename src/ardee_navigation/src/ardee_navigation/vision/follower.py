@@ -9,7 +9,7 @@ import numpy as np
 from ardee_navigation.lane_following import LaneFollower, Line, State
 from ardee_navigation.lane_following.control import centre_error_m
 from ardee_navigation.lane_following.line import blend, turned
-from ardee_navigation.vision.camera import Camera, Sight
+from ardee_navigation.vision.camera import Camera, Sight, check_size
 from ardee_navigation.vision.classical import Classical
 from ardee_navigation.vision.learned import Learned
 from ardee_navigation.vision.parameters import VisionParameters
@@ -61,7 +61,8 @@ class VisionFollower:
         self._unseen_s = math.inf
 
     def update(self, rgb: np.ndarray, time_s: float) -> Output:
-        """Returns the output for the picture uint8[h, w, 3] taken at `time_s`."""
+        """Returns the output for the picture uint8[h, w, 3] taken at `time_s`; GeneratorError for a wrong size."""
+        check_size(rgb.shape[1], rgb.shape[0])
         dt_s = self._run.elapsed_s(time_s)
         if dt_s is None:
             self._forget()
