@@ -8,6 +8,7 @@ import pytest
 
 from ardee_common.errors import GeneratorError
 from ardee_common.output import (
+    check_file,
     locked,
     model_directory,
     output_folder,
@@ -54,6 +55,15 @@ def test_a_parent_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(GeneratorError, match="cannot be written"):
         write(tmp_path / "file", "x", "new")
+
+
+def test_a_file_that_cannot_be_written_is_known_before(tmp_path: Path) -> None:
+    check_file(tmp_path / "new" / "x")
+    assert list((tmp_path / "new").iterdir()) == []
+    (tmp_path / "file").touch()
+    for path, why in ((tmp_path, "Is a directory"), (tmp_path / "file" / "x", "File exists")):
+        with pytest.raises(GeneratorError, match=f"^{path}: cannot be written: {why}$"):
+            check_file(path)
 
 
 def test_a_folder_goes_again_if_nothing_came_into_it(tmp_path: Path) -> None:

@@ -76,9 +76,49 @@ def test_a_bad_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture)
     assert (
         judge_vision.main([str(tmp_path), "--output", str(tmp_path / "a.jpg" / "sheet.png")]) == 2
     )
-    empty, nowhere = capsys.readouterr().err.splitlines()
-    assert "found no NAME.jpg with NAME.crp" in empty
-    assert "a.jpg" in nowhere
+    assert judge_vision.main([str(tmp_path), "--output", str(tmp_path)]) == 2
+    said = capsys.readouterr()
+    assert said.err.splitlines() == [
+        f"judge_vision: {tmp_path}: found no NAME.jpg with NAME.crp, expected at least one",
+        f"judge_vision: {tmp_path}/a.jpg/sheet.png: cannot be written: File exists",
+        f"judge_vision: {tmp_path}: cannot be written: Is a directory",
+    ]
+    assert not said.out  # before any picture was judged
+
+
+def test_names_in_upper_case_are_found_and_halves_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    for name in "abc":
+        write(tmp_path, name, rows_of(0.0, 0.0, 0.0))
+    (tmp_path / "a.jpg").rename(tmp_path / "a.JPG")
+    (tmp_path / "a.crp").write_text("\ufeff" + (tmp_path / "a.crp").read_text())
+    (tmp_path / "b.jpg").unlink()
+    (tmp_path / "c.crp").unlink()
+    assert judge_vision.main([str(tmp_path)]) == 0
+    said = capsys.readouterr()
+    assert said.out.startswith("a.JPG ") and "in 1 pictures" in said.out
+    assert said.err.splitlines() == [
+        f"judge_vision: {tmp_path}/c.jpg: left out, found no c.crp",
+        f"judge_vision: {tmp_path}/b.crp: left out, found no b.jpg",
+    ]
+
+
+def test_bad_pictures_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    write(tmp_path, "a", rows_of(0.0, 0.0, 0.0))
+    picture = tmp_path / "a.jpg"
+    whole = picture.read_bytes()
+    flat = cv2.imencode(".jpg", np.zeros((3, 1000, 3), np.uint8))[1].tobytes()
+    cases = (
+        (whole[: len(whole) // 2], "image file is truncated"),
+        (b"", "cannot identify image file"),
+        (flat, "found a picture of 1000 x 3 pixels, expected at least 16 a side, and 1:4 to 4:1"),
+    )
+    for data, said in cases:
+        picture.write_bytes(data)
+        assert judge_vision.main([str(tmp_path)]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.startswith(f"judge_vision: {picture}: {said}")
 
 
 @pytest.mark.filterwarnings("error")

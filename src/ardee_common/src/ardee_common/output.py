@@ -102,6 +102,17 @@ def output_folder(folder: Path) -> Iterator[Path]:
         raise
 
 
+def check_file(path: Path) -> None:
+    """Raises GeneratorError if no file can be written at a path; before long work, whose result is for it."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+        tempfile.TemporaryFile(dir=path.parent).close()
+    except OSError as error:
+        raise GeneratorError(f"{path}: cannot be written: {error.strerror}") from None
+
+
 def write_file(path: Path, data: bytes) -> None:
     """Replaces one file in one step, while other processes, on other machines too, may do the same."""
     path.parent.mkdir(parents=True, exist_ok=True)

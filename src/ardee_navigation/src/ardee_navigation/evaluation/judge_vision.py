@@ -1,22 +1,25 @@
 # SPDX-License-Identifier: MIT
 """Judges what the row model of ardee_navigation.vision finds in pictures of crop rows whose true rows are known.
 
-FOLDER holds NAME.jpg with NAME.crp, in the form of the Crop Row Benchmark Dataset (Vidovic, Cupec and Hocenski: Crop
-row detection by global energy minimization, Pattern Recognition 55, 2016): a line for each of the lowest picture rows,
-with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
+FOLDER holds NAME.jpg with NAME.crp (.JPG, .CRP: the same), in the form of the Crop Row Benchmark Dataset (Vidovic, Cupec
+and Hocenski: Crop row detection by global energy minimization, Pattern Recognition 55, 2016): a line for each of the
+lowest picture rows, with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
 """
 import argparse
 import math
 import sys
 from pathlib import Path
-from typing import Dict, Optional, Sequence, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import cv2
 import numpy as np
+from PIL import Image
 
+from ardee_common.cli import say
 from ardee_common.errors import GeneratorError
-from ardee_common.output import write_file
+from ardee_common.output import check_file, write_file
 from ardee_navigation.evaluation.vision_sheet import Judged, Ways, sheet
+from ardee_navigation.vision.camera import check_size
 from ardee_navigation.vision.field_fit import FieldFitter, FieldRows
 from ardee_navigation.vision.learned import RowHeat
 from ardee_navigation.vision.vegetation import excess_green
@@ -31,7 +34,7 @@ _WORST = 12  # pictures of the sheet
 def read_rows(path: Path, height_px: int) -> FieldRows:
     """Returns the rows of a .crp file, NaN in picture rows above its first. Raises GeneratorError."""
     try:
-        lines = path.read_text().splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, ValueError) as error:
         raise GeneratorError(f"{path}: {error}") from None
     numbers = [_pair(line, f"{path}:{n}") for n, line in enumerate(lines, 1) if line.strip()]
@@ -92,17 +95,29 @@ def find_rows(rgb: np.ndarray, index: np.ndarray, fitter: FieldFitter) -> FieldR
     return FieldRows(offset * scale, period * scale)
 
 
-def judged(path: Path, ways: Ways, fitters: Dict[Tuple[int, int], FieldFitter]) -> Judged:
-    """Returns what the ways find in a picture."""
+def read_picture(path: Path) -> np.ndarray:
+    """Returns a picture uint8[h, w, 3] in red, green, blue. Raises GeneratorError."""
+    try:
+        with Image.open(path) as opened:
+            check_size(*opened.size)
+            opened.load()  # where a file is cut short, cv2 says nothing and fills up with grey
+    except (GeneratorError, OSError, ValueError, Image.DecompressionBombError) as error:
+        raise GeneratorError(f"{path}: {error}") from None
     bgr = cv2.imread(str(path))
     if bgr is None:
         raise GeneratorError(f"{path}: found no picture")
-    height_px, width_px = bgr.shape[:2]
+    return np.ascontiguousarray(bgr[:, :, ::-1])
+
+
+def judged(
+    path: Path, truth: Path, ways: Ways, fitters: Dict[Tuple[int, int], FieldFitter]
+) -> Judged:
+    """Returns what the ways find in a picture."""
+    rgb = read_picture(path)
+    height_px, width_px = rgb.shape[:2]
     size = _WIDTH_PX, round(height_px * _WIDTH_PX / width_px)
     if size not in fitters:
         fitters[size] = FieldFitter(*size)
-    rgb = np.ascontiguousarray(bgr[:, :, ::-1])
-    truth = path.with_suffix(".crp")
     true = read_rows(truth, height_px)
     known = np.flatnonzero(np.isfinite(true.period_px))
     if not any(len(_passes(true, v, width_px)) for v in known):
@@ -112,17 +127,31 @@ def judged(path: Path, ways: Ways, fitters: Dict[Tuple[int, int], FieldFitter]) 
     return Judged(path.name, rgb, true, found, marks)
 
 
+def _pairs(folder: Path) -> List[Tuple[Path, Path]]:
+    """Returns the pictures of a folder, each with its truth; names in a warning what has no other half."""
+    files = sorted(folder.glob("*"))
+    pictures, truths = (
+        {path.stem: path for path in files if path.suffix.lower() == suffix}
+        for suffix in (".jpg", ".crp")
+    )
+    names = [name for name in pictures if name in truths]
+    if not names:
+        raise GeneratorError(f"{folder}: found no NAME.jpg with NAME.crp, expected at least one")
+    for half, other, suffix in ((pictures, truths, "crp"), (truths, pictures, "jpg")):
+        for name in [name for name in half if name not in other]:
+            say("judge_vision", f"{half[name]}: left out, found no {name}.{suffix}")
+    return [(pictures[name], truths[name]) for name in names]
+
+
 def judge(args: argparse.Namespace) -> int:
     """Prints the accuracy of both ways in each picture of a folder, and their means; writes the sheet."""
     ways: Ways = {"classical": greenness, "learned": RowHeat().look}
-    folder = args.folder
-    pictures = sorted(path for path in folder.glob("*.jpg") if path.with_suffix(".crp").is_file())
-    if not pictures:
-        raise GeneratorError(f"{folder}: found no NAME.jpg with NAME.crp, expected at least one")
+    if args.output:
+        check_file(args.output)
     fitters: Dict[Tuple[int, int], FieldFitter] = {}
     results = []
-    for path in pictures:
-        results.append(judged(path, ways, fitters))
+    for path, truth in _pairs(args.folder):
+        results.append(judged(path, truth, ways, fitters))
         print(path.name, *(f"{mark:.3f}" for mark in results[-1].marks.values()))
     for way in ways:
         mean = np.mean([one.marks[way] for one in results])
