@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Judges what the row model of ardee_navigation.vision finds in pictures of crop rows whose true rows are known.
 
-FOLDER holds NAME.jpg with NAME.crp (.JPG, .CRP: the same), in the form of the Crop Row Benchmark Dataset (Vidovic, Cupec
-and Hocenski: Crop row detection by global energy minimization, Pattern Recognition 55, 2016): a line for each of the
-lowest picture rows, with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
+FOLDER holds NAME.jpg with NAME.crp, or .JPG and .CRP, in the form of the Crop Row Benchmark Dataset (Vidovic, Cupec and
+Hocenski: Crop row detection by global energy minimization, Pattern Recognition 55, 2016): a line for each of the lowest
+picture rows, with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
 """
 import argparse
 import math
