@@ -2,6 +2,8 @@
 """Tests the pairing rule under loss, doubling, reordering and garbage; chunks likewise."""
 import random
 
+import pytest
+
 from ardee_bridge.wire import chunks, codec
 from ardee_bridge.wire.pairing import MAX_SENDERS, WINDOW_S, Pairer
 
@@ -165,6 +167,62 @@ def test_an_empty_cloud_is_a_frame():
     ((header, data),) = chunks.split(codec.DataType.POINT_CLOUD, 0, head, b"", 1600)
     whole = chunks.Assembler().feed(codec.Header.unpack(header), data)
     assert whole is not None and chunks.points_si(whole.payload) == []
+
+
+def feed_at(offsets, total):
+    """Feeds an assembler chunks of 100 bytes, a, b and so on, at these offsets; returns it and what it made."""
+    assembler, count = chunks.Assembler(), len(offsets)
+    header, wholes = codec.Header(msg_type=17, data_type=17), []
+    for index, offset in enumerate(offsets):
+        chunk = codec.Chunk(index=index, count=count, offset=offset, total=total)
+        head = codec.ImageChunk(chunk=chunk, width=7, height=9)
+        wholes.append(assembler.feed(header, head.pack() + b"abc"[index : index + 1] * 100))
+    return assembler, [whole.payload for whole in wholes if whole]
+
+
+def test_chunks_are_joined_by_their_offsets():
+    assembler, wholes = feed_at((100, 0, 200), 300)
+    assert wholes == [b"b" * 100 + b"a" * 100 + b"c" * 100] and assembler.bad_chunks == 0
+
+
+@pytest.mark.parametrize(
+    "offsets, total", [((0, 50, 200), 300), ((0, 0, 200), 300), ((0, 200), 300)]
+)
+def test_chunks_that_overlap_or_leave_a_hole_are_counted(offsets, total):
+    assembler, wholes = feed_at(offsets, total)
+    assert wholes == [] and (assembler.bad_chunks, assembler.lost_frames) == (1, 1)
+
+
+@pytest.mark.parametrize(
+    "fields, is_sound",
+    [
+        (dict(encoding=0, width=5, height=4), True),
+        (dict(encoding=2, width=5, height=4, step=15), True),
+        (dict(encoding=1, width=15, height=4, step=15), True),
+        (dict(encoding=0, width=5, height=4, step=15), False),
+        (dict(encoding=2, width=6, height=4, step=15), False),
+        (dict(encoding=2, width=5, height=5, step=15), False),
+        (dict(encoding=99, width=5, height=4, step=15), False),
+        (dict(encoding=0, width=-3, height=4), False),
+        (dict(encoding=99, width=-3, height=2**31 - 1, step=-3), False),
+        (dict(encoding=1, width=-60, height=-1, step=-60), False),
+    ],
+)
+def test_an_image_whose_head_does_not_fit_it_is_counted(fields, is_sound):
+    head = codec.ImageChunk(**fields)
+    ((header, data),) = chunks.split(codec.DataType.IMAGE, 0, head, bytes(60), 100)
+    assembler = chunks.Assembler()
+    whole = assembler.feed(codec.Header.unpack(header), data)
+    assert (whole is not None, assembler.bad_chunks) == (is_sound, not is_sound)
+
+
+def test_a_cloud_of_half_a_point_is_counted():
+    ((header, data),) = chunks.split(
+        codec.DataType.POINT_CLOUD, 0, codec.PointCloudChunk(), bytes(24), 100
+    )
+    assembler = chunks.Assembler()
+    assert assembler.feed(codec.Header.unpack(header), data) is None
+    assert assembler.bad_chunks == 1
 
 
 def test_unsound_chunks_are_counted_and_bounded():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Images and point clouds are larger than a datagram: they travel as chunks."""
-from typing import Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
 
 from ardee_bridge.wire import codec
 
@@ -8,6 +8,13 @@ ChunkHead = Union[codec.ImageChunk, codec.PointCloudChunk]
 # The largest payload that, with the head before it, still fits a UDP datagram; whole points.
 MAX_PAYLOAD = 65_000 // codec.Point.size * codec.Point.size
 MAX_TOTAL = 64 << 20
+_PIXEL_BYTES = {
+    codec.ImageEncoding.MONO8: 1,
+    codec.ImageEncoding.RGB8: 3,
+    codec.ImageEncoding.BGR8: 3,
+    codec.ImageEncoding.DEPTH_16U_MM: 2,
+    codec.ImageEncoding.DEPTH_32F_M: 4,
+}
 
 
 def split(
@@ -45,7 +52,7 @@ class _Frame:
 
     def __init__(self, key: Tuple[int, ...]) -> None:
         self.key, self.size, self.done = key, 0, False
-        self.parts: Dict[int, bytes] = {}
+        self.parts: Dict[int, Tuple[int, bytes]] = {}  # index -> offset, payload
 
 
 class Assembler:
@@ -72,14 +79,15 @@ class Assembler:
             self.bad_chunks += 1
             frame.size -= len(payload)
             return None
-        frame.parts[head.chunk.index] = payload
+        frame.parts[head.chunk.index] = head.chunk.offset, payload
         if len(frame.parts) < head.chunk.count:
             return None
         parts, frame.parts, frame.done = frame.parts, {}, True
-        if frame.size != head.chunk.total:
+        whole = _joined(parts.values())
+        if whole is None or len(whole) != head.chunk.total:
+            self.bad_chunks += 1
             self.lost_frames += 1
             return None
-        whole = b"".join(parts[index] for index in range(head.chunk.count))
         return Whole(header.component_id, head, whole)
 
     def _frame_for(self, place: Tuple[int, int], head: ChunkHead) -> Optional[_Frame]:
@@ -97,6 +105,16 @@ class Assembler:
         return self._frames[place]
 
 
+def _joined(parts: Iterable[Tuple[int, bytes]]) -> Optional[bytes]:
+    """Returns payloads joined in the order of their offsets, None where they overlap or leave a hole."""
+    whole = bytearray()
+    for offset, payload in sorted(parts):
+        if offset != len(whole):
+            return None
+        whole += payload
+    return bytes(whole)
+
+
 def _is_sound(head: ChunkHead, payload_bytes: int) -> bool:
     chunk = head.chunk
     return (
@@ -105,7 +123,23 @@ def _is_sound(head: ChunkHead, payload_bytes: int) -> bool:
         and 0 <= chunk.offset
         and chunk.offset + payload_bytes <= chunk.total
         and (payload_bytes > 0 or chunk.total == 0)
+        and (_is_image(head) if isinstance(head, codec.ImageChunk) else _is_cloud(head))
     )
+
+
+def _is_image(head: codec.ImageChunk) -> bool:
+    if head.width < 1 or head.height < 1:
+        return False
+    if head.encoding == codec.ImageEncoding.JPEG:
+        return head.step == 0
+    if head.encoding not in _PIXEL_BYTES:
+        return False
+    is_row = head.step >= head.width * _PIXEL_BYTES[head.encoding]
+    return is_row and head.step * head.height == head.chunk.total
+
+
+def _is_cloud(head: codec.PointCloudChunk) -> bool:
+    return head.chunk.total % codec.Point.size == 0
 
 
 def points_si(payload: bytes) -> List[Tuple[float, float, float, float]]:
