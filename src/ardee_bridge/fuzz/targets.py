@@ -71,8 +71,10 @@ def _events(data: bytes) -> Iterator[Tuple[int, bytes]]:
             yield sender, data[at : at + size].ljust(size, b"\1")
             at += size
         else:
-            for datagram in codec.encode_motion((what - 228) / 20.0, (sender - 100) / 100.0):
-                yield sender, datagram
+            motion = codec.MotionCommands(multiplier=100, normalized_speed=5 * (what - 228))
+            motion.normalized_yaw_rate = sender - 100
+            yield sender, codec.encode_motion(0.0, 0.0)[0]
+            yield sender, motion.pack()
 
 
 class _Bench:

@@ -71,11 +71,23 @@ def test_numbers_of_the_thesis():
     assert codec.data_size(codec.Header.unpack(header)) == 12
 
 
-def test_si_commands_are_clamped_to_the_limits():
-    _, data = codec.encode_motion_si(2.4, -codec.MAX_YAW_RATE_RAD_S / 2)
-    command = codec.MotionCommands.unpack(data)
+@pytest.mark.parametrize(
+    "encode, values",
+    [
+        (codec.encode_motion, (1e10, -0.5)),
+        (codec.encode_motion_si, (2.4, -codec.MAX_YAW_RATE_RAD_S / 2)),
+    ],
+)
+def test_commands_are_cut_to_the_limits(encode, values):
+    command = codec.MotionCommands.unpack(encode(*values)[1])
     assert command.normalized_speed == command.multiplier
     assert command.normalized_yaw_rate == -command.multiplier // 2
+
+
+@pytest.mark.parametrize("bad", [0, -5, 2**31])
+def test_a_multiplier_that_receivers_drop_is_refused(bad):
+    with pytest.raises(ValueError, match=f"^multiplier: found {bad}, expected at least 1, at most"):
+        codec.encode_motion(0.5, 0.0, multiplier=bad)
 
 
 @pytest.mark.parametrize("encode", [codec.encode_motion, codec.encode_motion_si])

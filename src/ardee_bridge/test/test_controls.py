@@ -188,13 +188,20 @@ def test_control_codes_are_answered(bench):
     assert codec.Ack.unpack(bench.peer.recv(100)).sequence == 77
 
 
+def raw_motion(speed, yaw_rate, multiplier):
+    """Returns a command of any integers."""
+    raw = codec.MotionCommands(multiplier=multiplier)
+    raw.normalized_speed, raw.normalized_yaw_rate = speed, yaw_rate
+    return codec.encode_motion(0.0, 0.0)[0], raw.pack()
+
+
 @pytest.mark.parametrize(
     "datagrams, reason",
     [
-        (codec.encode_motion(0.5, 0.0, multiplier=0), "malformed motion command"),
-        (codec.encode_motion(0.5, 0.0, multiplier=-5), "malformed motion command"),
-        (codec.encode_motion(-(2**31), 0.0, multiplier=1), "malformed motion command"),
-        (codec.encode_motion(0.0, -(2**31), multiplier=1), "malformed motion command"),
+        (raw_motion(0, 0, 0), "malformed motion command"),
+        (raw_motion(-2, 0, -5), "malformed motion command"),
+        (raw_motion(-(2**31), 0, 1), "malformed motion command"),
+        (raw_motion(0, -(2**31), 1), "malformed motion command"),
         (codec.encode_control(9), "unknown control code"),
         (codec.encode_set_port([]), "neither motion nor control"),
         (codec.encode(codec.DataType.BATTERY, 0, bytes(12)), "neither motion nor control"),

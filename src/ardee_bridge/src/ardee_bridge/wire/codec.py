@@ -257,25 +257,29 @@ def _require_finite(**values: float) -> None:
 def encode_motion(
     speed: float, yaw_rate: float, multiplier: int = DEFAULT_MULTIPLIER, component_id: int = 0
 ) -> Datagrams:
-    """A motion command: speed and yaw rate as fractions -1...1 of the limits; ValueError unless both are finite."""
-    _require_finite(speed=speed, yaw_rate=yaw_rate)
+    """A motion command: speed and yaw rate as fractions of the limits, cut to -1...1.
+
+    ValueError unless both are finite and the multiplier at least 1.
+    """
+    _require_finite(speed=speed, yaw_rate=yaw_rate)  # min and max would make full speed of NaN
+    if not 1 <= multiplier <= INT32.limits[1]:
+        expected = f"expected at least 1, at most {INT32.limits[1]}"
+        raise ValueError(f"multiplier: found {multiplier}, {expected}")
     commands = MotionCommands(
-        normalized_speed=round(speed * multiplier),
-        normalized_yaw_rate=round(yaw_rate * multiplier),
+        normalized_speed=round(max(-1.0, min(1.0, speed)) * multiplier),
+        normalized_yaw_rate=round(max(-1.0, min(1.0, yaw_rate)) * multiplier),
         multiplier=multiplier,
     )
     return _encode_request(MessageType.DATA_RCCOMMANDS, component_id, commands)
 
 
 def encode_motion_si(speed_m_s: float, yaw_rate_rad_s: float) -> Datagrams:
-    """A motion command in m/s and rad/s, for the limits of the TerraSentia; beyond them it is clamped.
+    """A motion command in m/s and rad/s, for the limits of the TerraSentia; beyond them it is cut.
 
     ValueError unless both are finite.
     """
-    # min and max would make full speed of NaN
     _require_finite(speed_m_s=speed_m_s, yaw_rate_rad_s=yaw_rate_rad_s)
-    shares = speed_m_s / MAX_SPEED_M_S, yaw_rate_rad_s / MAX_YAW_RATE_RAD_S
-    return encode_motion(*(max(-1.0, min(1.0, share)) for share in shares))
+    return encode_motion(speed_m_s / MAX_SPEED_M_S, yaw_rate_rad_s / MAX_YAW_RATE_RAD_S)
 
 
 def encode_control(code: ControlCode, request_id: int = 0) -> Datagrams:
