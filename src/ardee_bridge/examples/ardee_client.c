@@ -329,6 +329,10 @@ static Options parse(int argc, char **argv) {
     fprintf(stderr, "ardee_client: found %s, expected an argument of --help\n", argv[optind]);
     exit(2);
   }
+  if (!options.port && !options.server_port) {
+    fprintf(stderr, "ardee_client: --port: found 0, expected a port, or --ask too\n");
+    exit(2);
+  }
   return options;
 }
 

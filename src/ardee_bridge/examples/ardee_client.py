@@ -12,7 +12,7 @@ import socket
 import sys
 import time
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any, Callable, Dict, List, NoReturn, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "src"))
 
@@ -25,29 +25,50 @@ ASK_AGAIN_S = 5.0
 BUFFER_BYTES = 4 << 20
 
 
+def fail(text: str) -> NoReturn:
+    """Ends with one line and code 2."""
+    print(f"ardee_client: {text}", file=sys.stderr)
+    sys.exit(2)
+
+
+class Parser(argparse.ArgumentParser):
+    """Parser that reports an error without the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """Ends."""
+        fail(message)
+
+
 def options() -> argparse.Namespace:
     """Returns the parsed command line."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    port = number_in(int, 0, 65535, "a port, 0 to 65535")
+    share = number_in(float, -1.0, 1.0, "a share of the limit, -1 to 1")
+    parser = Parser(description=__doc__.split("\n")[0])
     parser.add_argument(
-        "--simulator", default="127.0.0.1", help="address of the simulator's computer"
+        "--simulator",
+        type=address,
+        default="127.0.0.1",
+        help="address of the simulator's computer",
     )
     parser.add_argument(
         "--port",
-        type=int,
+        type=port,
         default=30000,
         help="UDP port to listen at; 0: any free port, needs --ask",
     )
     parser.add_argument(
-        "--group", help="multicast group to join, on the interface that leads to the simulator"
+        "--group",
+        type=address,
+        help="multicast group to join, on the interface that leads to the simulator",
     )
     parser.add_argument(
         "--ask",
-        type=int,
+        type=port,
         metavar="PORT",
         help="ask the sensor server at this port, usually 30001, for every sensor and for time stamps",
     )
     parser.add_argument(
-        "--controls", type=int, default=35555, help="UDP port of the controls client"
+        "--controls", type=port, default=35555, help="UDP port of the controls client"
     )
     parser.add_argument(
         "--speed", type=share, help="speed to drive at, -1...1 of the robot's limit"
@@ -61,17 +82,39 @@ def options() -> argparse.Namespace:
         help="control of the simulation to send once",
     )
     parser.add_argument(
-        "--duration-s", type=float, default=5.0, help="time until it ends (default %(default)s)"
+        "--duration-s",
+        type=number_in(float, 0.0, 1e9, "a time in s, at least 0"),
+        default=5.0,
+        help="time until it ends (default %(default)s)",
     )
-    return parser.parse_args()
+    found = parser.parse_args()
+    if not found.port and not found.ask:
+        fail("argument --port: found 0, expected a port, or --ask too")
+    return found
 
 
-def share(text: str) -> float:
-    """A share of a limit, -1...1."""
-    value = float(text)
-    if not -1.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a share of the limit, -1 to 1")
-    return value
+def number_in(kind: type, low: float, high: float, expected: str) -> Callable[[str], Any]:
+    """Returns the argparse type of a number within limits, which `expected` says in words."""
+
+    def read(text: str) -> Any:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"found {text}, expected {expected}")
+        return value
+
+    return read
+
+
+def address(text: str) -> str:
+    """Returns an IPv4 address as it is."""
+    try:
+        socket.inet_pton(socket.AF_INET, text)
+    except OSError:
+        raise argparse.ArgumentTypeError(f"found {text}, expected an IPv4 address") from None
+    return text
 
 
 def join(opened: socket.socket, group: str, simulator: str) -> None:
@@ -159,12 +202,12 @@ def main() -> int:
         try:
             opened.bind(("127.0.0.1" if is_local else "0.0.0.0", found.port))
         except OSError as error:
-            sys.exit(f"ardee_client: port {found.port}: {error.strerror}")
+            fail(f"port {found.port}: {error.strerror}")
         if found.group:
             try:
                 join(opened, found.group, found.simulator)
             except OSError as error:
-                sys.exit(f"ardee_client: group {found.group}: {error.strerror or error}")
+                fail(f"group {found.group}: {error.strerror}")
         client = Client(opened)
         if found.control:
             client.send(codec.encode_control(codec.ControlCode[found.control]), controls)

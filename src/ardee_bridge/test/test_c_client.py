@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Arguments of the C client, and how it counts; driving with it is tested with the whole bridge."""
+"""Arguments of the example clients, and how the C one counts; driving is tested with the whole bridge."""
 import socket
 import subprocess
+import sys
 import time
 
 import pytest
@@ -17,6 +18,13 @@ def client(package, tmp_path_factory):
     command = ["gcc", "-std=c11", "-O2", f"-I{include}", "-o", str(program), str(source)]
     subprocess.run(command, check=True)
     return program
+
+
+@pytest.fixture(params=["C", "Python"])
+def command(request, client, package):
+    """Returns the command of either client."""
+    is_c = request.param == "C"
+    return [client] if is_c else [sys.executable, package / "examples" / "ardee_client.py"]
 
 
 @pytest.mark.parametrize("option", ["-h", "--help"])
@@ -43,16 +51,38 @@ def test_a_word_without_meaning_is_refused_in_one_line(client, words, expected):
     assert run.stderr.count("\n") == 1
 
 
-def test_the_names_of_the_python_client_are_understood(client):
-    command = [str(client), "--port", "0", "--controls", "9", "--speed", "0.5", "--duration-s", "0"]
-    assert subprocess.run(command).returncode == 0
+@pytest.mark.parametrize(
+    "words, expected",
+    [
+        ("--port 99999", "found 99999, expected a port, 0 to 65535"),
+        ("--ask 99999", "found 99999, expected a port, 0 to 65535"),
+        ("--controls 99999 --speed 0.1", "found 99999, expected a port, 0 to 65535"),
+        ("--port 0", "--port: found 0, expected a port, or --ask too"),
+        ("--duration-s nan", "found nan, expected a time in s, at least 0"),
+        ("--duration-s=-1", "found -1, expected a time in s, at least 0"),
+        ("--speed 1.5", "found 1.5, expected a share of the limit, -1 to 1"),
+        ("--port 0 --ask 9 --simulator foo", "found foo, expected an IPv4 address"),
+        ("--port 0 --ask 9 --group foo", "found foo, expected an IPv4 address"),
+        ("--port 0 --ask 9 --group 10.0.0.1", "group"),
+    ],
+)
+def test_a_bad_value_is_refused_in_one_line_by_both_clients(command, words, expected):
+    run = subprocess.run([*command, *words.split()], capture_output=True, text=True)
+    assert (run.returncode, run.stdout) == (2, "")
+    assert run.stderr.startswith("ardee_client: ") and expected in run.stderr
+    assert run.stderr.count("\n") == 1
+
+
+def test_both_clients_understand_the_same_names(command):
+    words = "--port 0 --ask 9 --controls 9 --speed 0.5 --duration-s 0"
+    assert subprocess.run([*command, *words.split()]).returncode == 0
 
 
 @pytest.mark.parametrize("option", ["-v", "-w"])
 @pytest.mark.parametrize("share", ["1.01", "-1e9", "nan", "fast", ""])
 def test_a_speed_that_is_no_share_of_the_limit_is_refused(client, option, share):
     """Multiplied by a million it would not fit the datagram's integer."""
-    command = [str(client), "-p", "0", "-c", "9", "-t", "0.1", option, share]
+    command = [str(client), "-p", "0", "-a", "9", "-c", "9", "-t", "0.1", option, share]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 2
     expected = f"ardee_client: found {share}, expected a share of the limit, -1 to 1\n"
@@ -61,7 +91,7 @@ def test_a_speed_that_is_no_share_of_the_limit_is_refused(client, option, share)
 
 @pytest.mark.parametrize("share", ["-1", "0", "1"])
 def test_the_limits_themselves_are_allowed(client, share):
-    command = [str(client), "-p", "0", "-c", "9", "-t", "0.1", "-v", share]
+    command = [str(client), "-p", "0", "-a", "9", "-c", "9", "-t", "0.1", "-v", share]
     assert subprocess.run(command).returncode == 0
 
 
