@@ -44,6 +44,22 @@ def test_a_good_file(tmp_path: Path) -> None:
             "count: 1\n<<: 2\n",
             ":2: <<: found 2, expected a mapping or a list of them",
         ),
+        (
+            "count: 1\ndepth_m: 1:30\n",
+            ":2: found 1:30, which YAML takes for 90, expected a decimal number or a text in quotes",
+        ),
+        (
+            "depth_m: -1:30.5\n",
+            ":1: found -1:30.5, which YAML takes for -90.5, expected a decimal number or a text in quotes",
+        ),
+        (
+            "count: [0, 010]\n",
+            ":1: found 010, which YAML takes for 8, expected a decimal number or a text in quotes",
+        ),
+        (
+            "010: 1\n",
+            ":1: found 010, which YAML takes for 8, expected a decimal number or a text in quotes",
+        ),
         ("<<: {count: 2,\n  depth_m: 11}\n", ":2: depth_m: found 11, expected 0 to 10 m"),
     ],
 )
@@ -51,6 +67,13 @@ def test_bad_files(text: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(GeneratorError) as refused:
         read(tmp_path, text)
     assert str(refused.value) == f"{tmp_path}/ditch.yaml{message}"
+
+
+def test_a_text_that_looks_like_a_number_stays_one(tmp_path: Path) -> None:
+    file = tmp_path / "texts.yaml"
+    file.write_text("a: '1:30'\nb: \"010\"\nc: !!str 010\nd: 00:1b\ne: [0, -0.5, 0x10, 1_000]\n")
+    texts = {"a": "1:30", "b": "010", "c": "010", "d": "00:1b"}
+    assert read_yaml_lines(file) == {**texts, "e": [0, -0.5, 16, 1000]}
 
 
 def test_a_few_aliases_are_read(tmp_path: Path) -> None:

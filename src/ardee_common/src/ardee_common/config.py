@@ -17,6 +17,9 @@ _MAX_BYTES = 64 << 20
 _MAX_REPEATED = 100_000  # values that aliases may stand for, beside those that are written out
 # YAML 1.1 takes 1e-4 (without a dot) for a text; people mean the number.
 _EXPONENT = re.compile(r"[-+]?\d+[eE][-+]?\d+")
+# Numbers of YAML 1.1 that people do not mean: 1:30 is 90 to it, and 010 is 8.
+_NUMBERS = ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float")
+_NOT_DECIMAL = re.compile(r".*:.*|[-+]?0[0-7_]+")
 _MERGE = "tag:yaml.org,2002:merge"  # of the key <<
 
 
@@ -56,7 +59,16 @@ class _Converter:
             return [self.convert(item, depth + 1) for item in node.value]
         if not node.style and _EXPONENT.fullmatch(node.value):
             return float(node.value)
-        return self._loader.construct_object(node)
+        return self._plain(node)
+
+    def _plain(self, node: yaml.Node) -> Any:
+        """Returns the data of a node that is a value or a key."""
+        made = self._loader.construct_object(node)
+        if node.tag in _NUMBERS and _NOT_DECIMAL.fullmatch(node.value):
+            where = f"{self._path}:{node.start_mark.line + 1}"
+            found = f"found {node.value}, which YAML takes for {made}"
+            raise GeneratorError(f"{where}: {found}, expected a decimal number or a text in quotes")
+        return made
 
     def _mapping(self, node: yaml.MappingNode, depth: int) -> Mapping:
         made = Mapping(self._path, node.start_mark.line + 1)
@@ -65,7 +77,7 @@ class _Converter:
             if key_node.tag == _MERGE:
                 merged += self._merged(value_node, depth)
                 continue
-            key, at = str(self._loader.construct_object(key_node)), key_node.start_mark.line + 1
+            key, at = str(self._plain(key_node)), key_node.start_mark.line + 1
             if key in made:
                 raise GeneratorError(
                     f"{self._path}:{at}: found key {key!r} a second time, first in line {made.line[key]}"
