@@ -45,7 +45,7 @@ def test_gaps_are_as_many_and_as_long_as_asked(pool):
 
 
 def test_more_gaps_than_there_is_room_for_are_refused(pool):
-    with pytest.raises(GeneratorError, match="gaps: found 40 of 6 plants each"):
+    with pytest.raises(GeneratorError, match="gaps: found 40 of 1 m, expected at most about"):
         _field(pool, plots=Plots(), stand=Stand(gaps=40))
 
 
@@ -241,7 +241,7 @@ def _own_rows(tmp_path, direction, plants=2000):
 
 def test_gaps_of_interleaved_rows_are_whole_and_within_one_row(pool, tmp_path):
     plan = _own_rows(tmp_path, (0.0, -1.0), plants=50)
-    config = FieldConfig(stand=Stand(gaps=4, gap_length_m=0.5), **CERTAIN)
+    config = FieldConfig(stand=Stand(gaps=4, gap_length_m=0.8), **CERTAIN)
     layout = generate(config, pool, 1, centres=plan)
     missing = np.setdiff1d(np.arange(100), layout.index)
     by_row = [plan.place[missing[plan.row[missing] == row]] for row in range(2)]
@@ -250,8 +250,8 @@ def test_gaps_of_interleaved_rows_are_whole_and_within_one_row(pool, tmp_path):
         for places in by_row
         for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
     ]
-    # 0.5 m at the planned spacing of 0.166 m are 3 plants
-    assert [len(run) for run in runs if len(run)] == [3, 3, 3, 3] and len(layout.gaps) == 4
+    # 0.8 m at these rows' own spacing of 0.2 m are 4 plants
+    assert [len(run) for run in runs if len(run)] == [4, 4, 4, 4] and len(layout.gaps) == 4
     assert sorted(i for gap in layout.gaps for i in gap.places) == missing.tolist()
 
 

@@ -150,7 +150,7 @@ def generate(
     total = len(plan.centres_m)
     offsets = variation.placement_offsets(total, config.covariance(), streams.of("placement"))
     centre = plan.centres_m + offsets[:, :1] * left_of(plan.along) - offsets[:, 1:] * plan.along
-    gaps = draw_gaps(plan, stand, config.plots.stalk_spacing_m, streams.of("gaps"))
+    gaps = draw_gaps(plan, stand, streams.of("gaps"))
     sown = np.ones(total, bool)
     for gap in gaps:
         sown[gap.places] = False

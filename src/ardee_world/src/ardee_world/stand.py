@@ -20,29 +20,40 @@ class Gap:
     places: np.ndarray
 
 
-def draw_gaps(plan: Plan, stand: Stand, stalk_spacing_m: float, rng: np.random.Generator) -> tuple:
+def _plants_of_a_gap(row_m: np.ndarray, gap_length_m: float) -> int:
+    """Number of plants in a gap of a row, by the median distance of the row's plants, to 0.1 mm as in the files."""
+    if len(row_m) < 2:
+        return 1
+    spacing_m = round(float(np.median(np.hypot(*np.diff(row_m, axis=0).T))), 4)
+    return max(int(round(gap_length_m / max(spacing_m, 1e-4))), 1)
+
+
+def draw_gaps(plan: Plan, stand: Stand, rng: np.random.Generator) -> tuple:
     """Draws gaps of whole plants that touch neither each other nor a row's end; all places are equally likely."""
     if stand.gaps == 0:
         return ()
-    count = max(int(round(stand.gap_length_m / stalk_spacing_m)), 1)
     total = len(plan.centres_m)
     order = np.lexsort((plan.place, plan.row, plan.plot))  # a user's rows may be interleaved
     new_row = (np.diff(plan.row[order]) != 0) | (np.diff(plan.plot[order]) != 0)
     starts = np.concatenate(([0], np.flatnonzero(new_row) + 1))
     ends = np.append(starts[1:], total)
+    rows = np.split(plan.centres_m[order], starts[1:])
+    counts = np.array([_plants_of_a_gap(row_m, stand.gap_length_m) for row_m in rows])
     row_of = np.repeat(np.arange(len(starts)), ends - starts)
     place = np.arange(total)
-    candidates = place[(place > starts[row_of]) & (place + count < ends[row_of])]
+    candidates = place[(place > starts[row_of]) & (place + counts[row_of] < ends[row_of])]
     taken = np.zeros(total, bool)
     firsts = []
     for first in rng.permutation(candidates).tolist():
+        count = counts[row_of[first]]
         if not taken[first - 1 : first + count + 1].any():
             taken[first : first + count] = True
             firsts.append(first)
             if len(firsts) == stand.gaps:
-                return tuple(Gap(order[first : first + count]) for first in sorted(firsts))
+                firsts.sort()
+                return tuple(Gap(order[i : i + counts[row_of[i]]]) for i in firsts)
     raise GeneratorError(
-        f"gaps: found {stand.gaps} of {count} plants each, expected at most about {len(firsts)} in these rows"
+        f"gaps: found {stand.gaps} of {stand.gap_length_m:g} m, expected at most about {len(firsts)} in these rows"
     )
 
 
