@@ -174,6 +174,10 @@ def test_bad_input_writes_nothing_and_keeps_the_earlier_field(
         "x_m,y_m,plot\n0,0,99999999999999999999\n",
         "x_m,y_m,row\n0,0,9007199254740993\n",
         "x_m,y_m,row\n0,0,-1\n",
+        "x_m,y_m\n1_0,2\n",
+        "x_m,y_m\n\u0663,2\n",
+        "x_m,y_m,Row\n1,2,0\n",
+        "x_m,y_m,x_m\n1,2,3\n",
         "x_m,y_m,row\n0,0,0\n1,0,0\n0,0,1\n",
     ],
 )
@@ -188,7 +192,7 @@ def test_a_plan_of_the_largest_numbers_is_drawn_and_one_of_a_spreadsheet_read(
     generate_field, tmp_path
 ):
     plan = tmp_path / "plan.csv"
-    plan.write_text("\ufeffx_m,y_m,plot,row\n0,0,0,0\n100000,-100000,100000,100000\n")
+    plan.write_text("\ufeffx_m,y_m, plot, row\n0,0,0,0\n100000,-100000,100000,100000\n")
     certain = ("--noise-covariance-m2", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
     assert generate_field(*BASE, *certain, "--centers", plan, "--output", tmp_path)[0] == 0
     truth = json.loads((tmp_path / "field" / "truth.json").read_text())

@@ -2,6 +2,7 @@
 """A planting strategy of the user's own (thesis Figure 4.4, centers_user): stalk centres in a CSV file or a list."""
 
 import csv
+import re
 from pathlib import Path
 from typing import Sequence
 
@@ -13,6 +14,9 @@ from ardee_world.field_layout import DECIMALS
 from ardee_world.plots import Plan, Row
 
 _MAX_PLOT = 100_000  # limit of plot and row numbers
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*", re.ASCII)
+_WHOLE = re.compile(r"\s*\d{0,6}\s*", re.ASCII)
+_VALUES = {"x_m": _NUMBER, "y_m": _NUMBER, "plot": _WHOLE, "row": _WHOLE}  # form of each column's
 _COLUMNS = (
     f"numbers from -{FAR_M:g} to {FAR_M:g} in columns x_m, y_m"
     f" (optionally also whole numbers from 0 to {_MAX_PLOT} in plot, row)"
@@ -55,15 +59,12 @@ def plan_of(points_m: np.ndarray, plot: np.ndarray, row: np.ndarray) -> Plan:
 
 
 def _line(path: Path, number: int, entry: dict) -> tuple:
-    try:
-        x, y = float(entry["x_m"]), float(entry["y_m"])
-        plot, row = (int(entry.get(name) or 0) for name in ("plot", "row"))
-    except (KeyError, TypeError, ValueError):
-        x = y = float("nan")
-        plot = row = 0
+    good = None not in entry and None not in entry.values()  # as many words as columns
+    good = good and all(_VALUES[key].fullmatch(text) for key, text in entry.items())
+    x, y = (float(entry[key]) if good else np.nan for key in ("x_m", "y_m"))
+    plot, row = (int(entry.get(key, "").strip() or 0) if good else 0 for key in ("plot", "row"))
     near = abs(x) <= FAR_M and abs(y) <= FAR_M  # False for NaN
-    within = near and 0 <= min(plot, row) and max(plot, row) <= _MAX_PLOT
-    if None in entry or None in entry.values() or not within:
+    if not near or max(plot, row) > _MAX_PLOT:
         found = {k: v for k, v in entry.items() if k is not None}
         raise GeneratorError(f"{path}: line {number}: found {found}, expected {_COLUMNS}")
     return x, y, plot, row
@@ -75,11 +76,12 @@ def read_centres(path: Path) -> Plan:
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
-            header = reader.fieldnames or []
-            if not {"x_m", "y_m"} <= set(header):
+            header = [name.strip() for name in reader.fieldnames or []]
+            reader.fieldnames = header
+            if not {"x_m", "y_m"} <= set(header) <= set(_VALUES) or len(set(header)) < len(header):
                 found = ",".join(header) or "nothing"
                 raise GeneratorError(
-                    f"{path}: line 1: found {found[:80]}, expected columns x_m,y_m"
+                    f"{path}: line 1: found {found[:80]}, expected columns x_m,y_m, optionally plot,row"
                 )
             for entry in reader:
                 lines.append(_line(path, reader.line_num, entry))
