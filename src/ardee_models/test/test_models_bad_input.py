@@ -11,6 +11,8 @@ from ardee_models.config_dir import config_dir
 from ardee_models.lookup import crop_model, find_model, search_path, terrain_model
 from ardee_models.plant import generate_crop
 from ardee_models.plant.crops import make_crop
+from ardee_models.prepare import prepare_crop
+from ardee_models.terrain import generate_terrain
 
 
 def _params_file(tmp_path, change):
@@ -99,6 +101,26 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "main, words",
+    [
+        (generate_crop.main, ["--stage", "V3"]),
+        (generate_terrain.main, []),
+        (prepare_crop.main, ["mesh.obj"]),
+    ],
+)
+def test_an_empty_output_is_refused(capsys, main, words):
+    with pytest.raises(SystemExit) as exit_:
+        main([*words, "--name", "mine", "--output", ""])
+    error = capsys.readouterr().err
+    assert exit_.value.code == 2 and "--output: found '', expected the name of a folder" in error
+
+
+def test_a_suggested_command_quotes_its_paths(tmp_path, capsys):
+    generate_crop.main(["--stage", "V3", "--name", "mine", "--output", str(tmp_path / "my own")])
+    assert f" --model-path '{tmp_path}/my own' --name my_field" in capsys.readouterr().err
 
 
 def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsys):

@@ -116,6 +116,7 @@ def test_rows_of_a_users_own_plan(generate_field, tmp_path):
         ("doubles: 1" + 400 * "0", "expected 0 to 1"),
         ("world_pose: [1e6, 0, 0]", "world_pose: found [1000000.0, 0, 0], expected -100000 to"),
         ("world_pose: [0, 0]", "field.yaml:4: world_pose: found [0, 0], expected 3 values"),
+        ("centers: [[0, 0]]\nrow_shape: sine", "row shape: found sine, expected none with"),
         ("a: [", "field.yaml:5: not valid YAML"),
         ("seed: -1", "field.yaml:4: seed: found -1"),
     ],
@@ -188,6 +189,17 @@ def bad_files(tmp_path):
             ("--weed-density-per-m2", "-1"),
             "weed density per m2: found -1.0|weed density: found -1.0",
         ),
+        (("--output", ""), "output: found '', expected the name of a folder"),
+        (
+            ("--centers", "{dir}/broken.csv", "--cross-rows", "2"),
+            "cross rows: found 2, expected none with centers",
+        ),
+        (
+            ("--centers", "{dir}/broken.csv", "--stalks-per-row", "2"),
+            "stalks per row: found 2, expected none with centers",
+        ),
+        (("--gap-length-m", "2"), "gap length: found 2.0, expected gaps too"),
+        (("--weed-image", "{dir}/not.png"), "not.png, expected weed density too"),
         (("--output", "{dir}/file"), "file: cannot be written"),
         (("--row-length-m", "5", "--stalks-per-row", "7"), "expected one of them"),
         (("--row-shape", "expression", "--row-expression", "open('x')"), "row expression"),
@@ -221,15 +233,15 @@ def test_it_says_what_to_do_next_and_how_arguments_are_called_now(
     models, tmp_path, monkeypatch, capsys
 ):
     words = ["generate_field", "--models", "corn_a", "--name", "mine", "--rows", "2"]
-    words += ["--output", str(tmp_path), "--model-path", str(models)]
+    words += ["--output", str(tmp_path / "my own"), "--model-path", str(models)]
     monkeypatch.setattr("sys.argv", words)
     assert main() == 0
-    field = tmp_path / "mine" / "mine.urdf.xacro"
+    field = tmp_path / "my own" / "mine" / "mine.urdf.xacro"
     assert field.is_file()
     where = f"GAZEBO_MODEL_PATH={models.resolve()}:$GAZEBO_MODEL_PATH"
     assert capsys.readouterr().err.splitlines() == [
         "generate_field: note: --rows is now --rows-per-plot",
-        f"generate_field: to drive in it: {where} rosrun ardee_bringup run_custom_world {field} [TERRAIN]",
+        f"generate_field: to drive in it: {where} rosrun ardee_bringup run_custom_world '{field}' [TERRAIN]",
     ]
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Reads models back: the folder of a model, the figures of its plant, the ground of its heightmap."""
 
+import argparse
 import json
 import os
 import xml.etree.ElementTree as ElementTree
@@ -60,6 +61,13 @@ def default_output() -> Path:
         if folder.is_dir() and os.access(folder, os.W_OK) and not is_built:
             return folder
     return own_models()
+
+
+def output_folder(text: str) -> Path:
+    """Folder that an argument --output names."""
+    if not text:
+        raise argparse.ArgumentTypeError("found '', expected the name of a folder")
+    return Path(text)
 
 
 def find_model(name: str, folders: Sequence[Path]) -> Path:

@@ -3,6 +3,7 @@
 
 import argparse
 import dataclasses
+import shlex
 import typing
 from pathlib import Path
 from typing import Any, Dict, Optional, Sequence
@@ -17,7 +18,7 @@ from ardee_world.clutter import KINDS, has_items
 from ardee_world.field_config import FieldConfig
 from ardee_world.field_layout import generate
 from ardee_world.plots import Plan
-from ardee_world.request import Sources, Values, configure, groups, yaml_values
+from ardee_world.request import Sources, Values, check_partners, configure, groups, yaml_values
 from ardee_world.writers.field import write_field
 
 _TITLES = {
@@ -160,10 +161,12 @@ def make_field(args: argparse.Namespace) -> Path:
     if "row_length_m" in given:
         values.pop("stalks_per_row", None)
     values = {**values, **given}
+    check_partners(values)
     path = make_configured(values)
     folders = [str(Path(folder).resolve()) for folder in configure(values)[0].model_path]
-    where = f"GAZEBO_MODEL_PATH={':'.join(folders)}:$GAZEBO_MODEL_PATH " if folders else ""
-    field = f"{path}/{path.name}.urdf.xacro"
+    listed = shlex.quote(":".join(folders))
+    where = f"GAZEBO_MODEL_PATH={listed}:$GAZEBO_MODEL_PATH " if folders else ""
+    field = shlex.quote(f"{path}/{path.name}.urdf.xacro")
     say(
         "generate_field",
         f"to drive in it: {where}rosrun ardee_bringup run_custom_world {field} [TERRAIN]",

@@ -8,14 +8,45 @@ from typing import Any, Dict, List, Optional, Tuple
 
 from ardee_common.config import Mapping, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError
-from ardee_common.options import kind_of, option, scalar_fields
+from ardee_common.options import kind_of, option, scalar_fields, spoken
 from ardee_models.lookup import DEFAULT_OUTPUT
-from ardee_world.field_config import GROUPS, FieldConfig
+from ardee_world.field_config import GROUPS, FieldConfig, RowShape
 
 # number of plants and clutter items above which a field is by default written as a stream
 LARGEST_SDF = 20_000
 _WHOLE = (0, 2**63)
 Values = Dict[str, Any]
+# options that centres replace; spacings and direction of rows remain, for plots.xacro and the start pose
+_OF_A_PLAN = (
+    "rows_per_plot",
+    "plots_y",
+    "row_length_m",
+    "stalks_per_row",
+    "plot_spacing_x_m",
+    "plot_spacing_y_m",
+    "headland_m",
+    *(f.name for f in scalar_fields(RowShape) if f.name != "row_direction_deg"),
+)
+# option that does nothing unless another one is given, to that one
+_PARTNERS = {
+    "curve_radius_m": "row_shape",
+    "sine_amplitude_m": "row_shape",
+    "sine_wavelength_m": "row_shape",
+    "island_distance_m": "island_radius_m",
+    "island_offset_m": "island_radius_m",
+    "cross_rows_at": "cross_rows",
+    "cross_row_clearance_m": "cross_rows",
+    "gap_length_m": "gaps",
+    "double_spacing_m": "doubles",
+    "late_size": "late_emergence",
+    "lodging_angle_min_deg": "lodging",
+    "lodging_angle_max_deg": "lodging",
+    "lodging_direction_deg": "lodging",
+    "lodging_direction_sd_deg": "lodging",
+    "weed_image": "weed_density_per_m2",
+    "stone_image": "stone_density_per_m2",
+    "litter_image": "litter_density_per_m2",
+}
 
 
 @dataclass(frozen=True)
@@ -149,9 +180,25 @@ def _resolve_aliases(values: Values) -> Values:
     return made
 
 
+def check_partners(values: Values) -> None:
+    """Raises GeneratorError for an option that does nothing without another one, which is not given."""
+    for key, partner in _PARTNERS.items():
+        if values.get(key) is not None and values.get(partner) is None:
+            found = f"found {values[key]}, expected {spoken(partner)} too"
+            raise GeneratorError(f"{spoken(key)}: {found}")
+
+
+def _check_centers(values: Values) -> None:
+    """Raises GeneratorError for an option of a plan beside centres, which replace the plan."""
+    for key in _OF_A_PLAN:
+        if values.get("centers") is not None and values.get(key) is not None:
+            found = f"found {values[key]}, expected none with centers"
+            raise GeneratorError(f"{spoken(key)}: {found}")
+
+
 def configure(values: Values) -> Tuple[Sources, FieldConfig]:
     """Checks options by key; returns the generator's inputs."""
-    values = _resolve_aliases(values)
+    given, values = values, _resolve_aliases(values)
     made = {}
     for group, cls in groups().items():
         if group in ("field", "aliases"):
@@ -162,6 +209,9 @@ def configure(values: Values) -> Tuple[Sources, FieldConfig]:
     own = {f.name for f in scalar_fields(FieldConfig)}
     config = FieldConfig(**made, **{k: v for k, v in values.items() if k in own})
     config.validate()
+    _check_centers(given)
+    if sources.output == "":
+        raise GeneratorError("output: found '', expected the name of a folder")
     for key in ("name", "models"):
         if not getattr(sources, key):
             raise GeneratorError(

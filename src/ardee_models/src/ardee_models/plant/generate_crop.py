@@ -2,11 +2,12 @@
 """The command `generate_crop`."""
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import Optional, Sequence
 
 from ardee_common.cli import Parser, RawHelp, add_seed, run, say
-from ardee_models.lookup import DEFAULT_OUTPUT, default_output
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output, output_folder
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import known_species, load_species
 from ardee_models.plant.stages import describe_stages
@@ -27,7 +28,7 @@ def say_how_to_plant(prog: str, models: Sequence[Path]) -> None:
     say(
         prog,
         f"to plant a field: rosrun ardee_world generate_field --models {names}"
-        f" --model-path {models[0].parent} --name my_field",
+        f" --model-path {shlex.quote(str(models[0].parent))} --name my_field",
     )
 
 
@@ -49,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
         "--output",
-        type=Path,
+        type=output_folder,
         help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
     return parser

@@ -3,6 +3,7 @@
 
 import argparse
 import dataclasses
+import shlex
 from pathlib import Path
 from typing import Any, Optional, Sequence
 
@@ -11,7 +12,7 @@ import numpy as np
 from ardee_common.cli import Parser, add_seed, run, say
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check
-from ardee_models.lookup import DEFAULT_OUTPUT, default_output
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output, output_folder
 from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
@@ -132,7 +133,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
         "--output",
-        type=Path,
+        type=output_folder,
         default=default_output(),
         help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
@@ -204,7 +205,8 @@ def make_terrain(args: argparse.Namespace) -> Path:
 
 def _make(args: argparse.Namespace) -> Path:
     path = make_terrain(args)
-    _say(f"to drive on it: rosrun ardee_bringup run_custom_world FIELD {path}")
+    ground = shlex.quote(str(path))
+    _say(f"to drive on it: rosrun ardee_bringup run_custom_world FIELD {ground}")
     return path
 
 

@@ -186,7 +186,7 @@ def too_fine(recipe: Recipe) -> Iterator[str]:
 
 
 def read_recipe(path: Path) -> Recipe:
-    """Reads a recipe from its YAML file; a single ridges or headland mapping needs no list, and mu2 is by default mu."""
+    """Reads a recipe from its YAML file; a single ridges or headland mapping needs no list, mu2 is by default mu."""
     mapping = read_yaml_lines(path)
     for key in ("ridges", "headland"):
         if isinstance(mapping.get(key), dict):
