@@ -63,7 +63,7 @@ def default_output() -> Path:
     return own_models()
 
 
-def output_folder(text: str) -> Path:
+def named_folder(text: str) -> Path:
     """Folder that an argument --output names."""
     if not text:
         raise argparse.ArgumentTypeError("found '', expected the name of a folder")

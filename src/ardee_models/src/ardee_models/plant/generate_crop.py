@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Optional, Sequence
 
 from ardee_common.cli import Parser, RawHelp, add_seed, run, say
-from ardee_models.lookup import DEFAULT_OUTPUT, default_output, output_folder
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output, named_folder
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import known_species, load_species
 from ardee_models.plant.stages import describe_stages
@@ -50,7 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
         "--output",
-        type=output_folder,
+        type=named_folder,
         help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
     return parser

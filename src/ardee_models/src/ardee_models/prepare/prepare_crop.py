@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import List, Optional, Sequence
 
 from ardee_common.cli import Parser, positive_number, run, whole_in
-from ardee_models.lookup import DEFAULT_OUTPUT, default_output, output_folder
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output, named_folder
 from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.plant.generate_crop import say_how_to_plant
 from ardee_models.plant.plant_metrics import METRICS_FILE
@@ -63,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--output",
-        type=output_folder,
+        type=named_folder,
         help=f"folder of models to write in (default: {DEFAULT_OUTPUT})",
     )
     parser.add_argument(

@@ -12,7 +12,7 @@ import numpy as np
 from ardee_common.cli import Parser, add_seed, run, say
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check
-from ardee_models.lookup import DEFAULT_OUTPUT, default_output, output_folder
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output, named_folder
 from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
@@ -133,7 +133,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
         "--output",
-        type=output_folder,
+        type=named_folder,
         default=default_output(),
         help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
