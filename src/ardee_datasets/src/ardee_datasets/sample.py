@@ -121,7 +121,7 @@ class View:
 
 
 def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> Dict[str, Any]:
-    """Returns the COCO keypoints of a plant, which are its foot; of clutter none, or an unlabelled one for an own label."""
+    """Returns the COCO keypoints of a plant, which are its foot; of clutter none, of own labels 0 0 0."""
     if item.foot_m is None:
         return {"keypoints": [0, 0, 0], "num_keypoints": 0} if item.label >= OWN_LABELS[0] else {}
     (apparent,) = view.apparent(item.foot_m[None])

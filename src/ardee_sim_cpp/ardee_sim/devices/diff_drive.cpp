@@ -10,6 +10,7 @@
 #include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
 #include "ardee_sim/devices/odometry_publisher.h"
+#include "ardee_sim/devices/sensor.h"
 #include "ardee_sim/devices/wheel_encoder.h"
 #include "ardee_sim/devices/wheel_publisher.h"
 
@@ -140,7 +141,7 @@ std::unique_ptr<Device> make_diff_drive(const PluginDescription& plugin, Paramet
   params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.wheel_acceleration_m_per_s2 = parameters.number("wheelAcceleration", 0.0, 0.0);
   params.torque_n_m = parameters.number("wheelTorque", 5.0, 0.0);
-  params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
+  params.update_rate_hz = read_update_rate_hz(parameters, 100.0);
   params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
   params.legacy_mode = read_legacy_mode(parameters, context.log);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);

@@ -60,7 +60,7 @@ std::unique_ptr<Device> make_force_torque(const PluginDescription& plugin, Param
   params.joint = context.joint_index(joint, parameters.block("jointName")->source);
   const std::string& child = context.robot.model().joints[params.joint].child;
   params.mount.link = context.robot.link_index(child, parameters.source());
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
+  params.mount.rate_hz = read_update_rate_hz(parameters, 0.0);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   params.frame = resolve_frame(child, space, context);

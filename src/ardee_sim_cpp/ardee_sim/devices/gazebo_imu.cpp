@@ -112,7 +112,7 @@ std::unique_ptr<Device> make_imu_on_model(const PluginDescription& plugin, Param
   const std::string body = parameters.required_text("bodyName");
   GazeboImu::Params params{{context.robot, plugin_link(parameters, context),
                             read_mounting(parameters), 0.0, context.seed}};
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
+  params.mount.rate_hz = read_update_rate_hz(parameters, 0.0);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.feels_gravity = parameters.boolean("gravity", false);
   params.topic = resolve_topic(parameters.text("topicName", "/default_imu"), space);

@@ -89,7 +89,7 @@ std::unique_ptr<Device> make_ground_truth(const PluginDescription& plugin, Param
   const std::string body = parameters.required_text("bodyName");
   GroundTruth::Params params{
       {context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
+  params.mount.rate_hz = read_update_rate_hz(parameters, 0.0);
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   const std::string frame = parameters.text("frameName", "world");
   const bool is_world = frame == "world" || frame == "/world" || frame == "map" || frame == "/map";

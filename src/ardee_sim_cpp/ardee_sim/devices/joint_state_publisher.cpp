@@ -7,6 +7,7 @@
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/sensor.h"
 
 namespace ardee::devices {
 namespace {
@@ -67,7 +68,7 @@ std::unique_ptr<Device> make_joint_state_publisher(const PluginDescription& plug
   for (const std::string& name : split_at_commas(parameters.required_text("jointName"))) {
     joints.push_back(context.joint_index(name, plugin.element.source));
   }
-  const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
+  const double rate_hz = read_update_rate_hz(parameters, kDefaultRateHz);
   parameters.ignore({"alwaysOn"});
   return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
                                                std::move(joints), rate_hz, context.robot);

@@ -202,7 +202,6 @@ Registry builtin_registry() {
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", make_diff_drive);
   registry.add_model_plugin("libgazebo_ros_force.so", make_link_push);
-  registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", make_joint_state_publisher);
   registry.add_model_plugin("libgazebo_ros_planar_move.so", make_planar_move);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libgazebo_ros_tricycle_drive.so", make_tricycle_drive);
@@ -213,6 +212,7 @@ Registry builtin_registry() {
   registry.add_model_sensor("libgazebo_ros_ft_sensor.so", make_force_torque);
   registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", make_gps_with_dropout);
   registry.add_model_sensor("libgazebo_ros_imu.so", make_imu_on_model);
+  registry.add_model_sensor("libgazebo_ros_joint_state_publisher.so", make_joint_state_publisher);
   registry.add_model_sensor("libgazebo_ros_p3d.so", make_ground_truth);
   registry.add_model_sensor("libhector_gazebo_ros_gps.so", Gps::make);
   registry.add_model_sensor("libhector_gazebo_ros_imu.so", make_hector_imu);

@@ -8,10 +8,15 @@
 namespace ardee::devices {
 namespace {
 
+/// Finds an item by its name, within the plugin's scope or the model, or with the robot's name
+/// before it, as Gazebo does.
 template <typename Item>
 std::size_t index_of(const std::vector<Item>& items, const std::string& name, const char* what,
-                     const Source& source, const std::string& scope) {
-  for (const std::string& full_name : {scope + name, name}) {
+                     const Source& source, const std::string& scope, const std::string& robot) {
+  const std::string prefix = robot + "::";
+  const bool is_prefixed = name.compare(0, prefix.size(), prefix) == 0;
+  const std::string inner = is_prefixed ? name.substr(prefix.size()) : name;
+  for (const std::string& full_name : {scope + name, name, inner}) {
     const auto found = std::find_if(items.begin(), items.end(), [&full_name](const Item& item) {
       return item.name == full_name;
     });
@@ -60,12 +65,12 @@ Twist Robot::planar_twist() const {
 
 std::size_t Robot::link_index(const std::string& link_name, const Source& source,
                               const std::string& scope) const {
-  return index_of(model_->links, link_name, "link", source, scope);
+  return index_of(model_->links, link_name, "link", source, scope, name_);
 }
 
 std::size_t Robot::joint_index(const std::string& joint_name, const Source& source,
                                const std::string& scope) const {
-  return index_of(model_->joints, joint_name, "joint", source, scope);
+  return index_of(model_->joints, joint_name, "joint", source, scope, name_);
 }
 
 }  // namespace ardee::devices

@@ -44,8 +44,13 @@ double slower_rate_hz(double one_hz, double other_hz) {
   return std::min(one_hz, other_hz);
 }
 
+double read_update_rate_hz(Parameters& parameters, double fallback_hz) {
+  constexpr double kMost_hz = limits::kMostRate_hz;
+  return std::max(0.0, parameters.number("updateRate", fallback_hz, -kMost_hz, kMost_hz));
+}
+
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount) {
-  mount.rate_hz = parameters.number("updateRate", default_rate_hz, 0.0, limits::kMostRate_hz);
+  mount.rate_hz = read_update_rate_hz(parameters, default_rate_hz);
   const double period_s = parameters.number("updatePeriod", 0.0, 0.0, limits::kLongestTime_s);
   if (period_s > 0.0) mount.rate_hz = 1.0 / period_s;
   mount.offset_ns =

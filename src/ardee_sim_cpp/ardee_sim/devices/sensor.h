@@ -59,6 +59,9 @@ class Sensor : public Device {
 /// The slower of two rates in Hz; 0 is no limit.
 double slower_rate_hz(double one_hz, double other_hz);
 
+/// Reads <updateRate> in Hz. 0 or below, as the stock plugins have it: at each step.
+double read_update_rate_hz(Parameters& parameters, double fallback_hz);
+
 /// Reads the times at which a hector_gazebo plugin measures: <updateRate> in Hz (0: at each step)
 /// or <updatePeriod> in s, from <updateOffset> in s on.
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount);

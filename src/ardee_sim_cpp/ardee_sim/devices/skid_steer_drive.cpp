@@ -6,6 +6,7 @@
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/sensor.h"
 
 namespace ardee::devices {
 namespace {
@@ -80,7 +81,7 @@ SkidSteerDrive::Params skid_steer_drive_params(Parameters& parameters, bool with
   params.wheel_separation_m = parameters.number("wheelSeparation", 0.4, limits::kSmallestWheel_m);
   params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.torque_n_m = parameters.number("torque", 5.0, 0.0);
-  params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
+  params.update_rate_hz = read_update_rate_hz(parameters, 100.0);
   params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry = read_odometry(parameters, space, params, context);

@@ -10,6 +10,7 @@
 #include "ardee_sim/devices/makers.h"
 #include "ardee_sim/devices/names.h"
 #include "ardee_sim/devices/odometry_publisher.h"
+#include "ardee_sim/devices/sensor.h"
 #include "ardee_sim/devices/wheel_encoder.h"
 #include "ardee_sim/devices/wheel_publisher.h"
 
@@ -149,7 +150,7 @@ std::unique_ptr<Device> make_tricycle_drive(const PluginDescription& plugin, Par
   params.speed_tolerance_m_per_s = parameters.number("wheelSpeedTolerance", 0.01, 0.0);
   params.steering_speed_rad_per_s = parameters.number("steeringSpeed", 0.0, 0.0);
   params.steering_tolerance_rad = parameters.number("steeringAngleTolerance", 0.01, 0.0);
-  params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
+  params.update_rate_hz = read_update_rate_hz(parameters, 100.0);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry = read_odometry(parameters, space, params, context);
   params.wheels = read_wheel_publisher_params(

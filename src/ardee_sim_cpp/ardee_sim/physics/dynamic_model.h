@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +103,9 @@ class DynamicModel : public PhysicsModel {
   std::size_t child_group(const Joint& joint) const;
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
   std::vector<std::size_t> hanging_on(std::size_t joint) const;
+  std::optional<std::size_t> index_of_joint(const std::string& name) const;
+  /// Moves all that hangs on a joint; those that follow it stay.
+  void place_joint(std::size_t joint, double position);
   ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
   /// Throws Error if a motion would take the body out of the world.
   void check_motion(std::size_t group, const Pose& motion) const;

@@ -133,9 +133,8 @@ void DynamicModel::set_joint_limits(std::size_t joint, double lower, double uppe
 
 void DynamicModel::couple_joints(const Coupling& coupling) {
   const auto named = [&](const std::string& name) -> ModelJoint& {
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
-      if (model_->joints[i].name == name && joint_axes(i) > 0) return *joints_[i];
-    }
+    const auto found = index_of_joint(name);
+    if (found && joint_axes(*found) > 0) return *joints_[*found];
     throw Error(coupling.source, "model '" + model_->name + "': found coupled joint '" + name +
                                      "', expected a joint of the model that has an axis");
   };
@@ -148,6 +147,15 @@ void DynamicModel::couple_joints(const Coupling& coupling) {
   }
   wake();
   couplings_.insert_or_assign(coupling.follower, JointCoupling(coupling, leader, follower));
+  if (coupling.offset != 0.0)
+    set_joint_position(*index_of_joint(coupling.leader), leader.position());
+}
+
+std::optional<std::size_t> DynamicModel::index_of_joint(const std::string& name) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (model_->joints[i].name == name) return i;
+  }
+  return std::nullopt;
 }
 
 const JointMotor& DynamicModel::joint_motor(std::size_t joint, std::size_t axis) const {

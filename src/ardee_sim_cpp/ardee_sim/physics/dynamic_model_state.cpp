@@ -136,8 +136,24 @@ std::vector<std::size_t> DynamicModel::hanging_on(std::size_t joint) const {
 }
 
 void DynamicModel::set_joint_position(std::size_t joint, double position) {
-  ModelJoint* moved = moving_joint(joint);
   require(is_valid(position), *model_, "a joint position");
+  std::vector<std::size_t> moved{joint};
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    hanging_on(moved[i]);  // throws before anything has moved
+    for (const auto& [name, coupling] : couplings_) {
+      const std::size_t follower = *index_of_joint(name);
+      const bool is_moved = std::find(moved.begin(), moved.end(), follower) != moved.end();
+      if (!is_moved && coupling.leader() == joints_[moved[i]].get()) moved.push_back(follower);
+    }
+  }
+  for (const std::size_t each : moved) {
+    const auto own = couplings_.find(model_->joints[each].name);
+    place_joint(each, own != couplings_.end() ? own->second.wanted() : position);
+  }
+}
+
+void DynamicModel::place_joint(std::size_t joint, double position) {
+  ModelJoint* moved = moving_joint(joint);
   if (!moved || !moved->has_position()) return;
   const Pose motion = moved->motion_to(position);
   const std::vector<std::size_t> hanging = hanging_on(joint);

@@ -19,8 +19,7 @@ Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 }  // namespace
 
 double JointCoupling::excess(double step_s) const {
-  const double error =
-      follower_->position() - coupling_.multiplier * leader_->position() - coupling_.offset;
+  const double error = follower_->position() - wanted();
   const double back = std::clamp(kErp * error / step_s, -kFastest, kFastest);
   return follower_->velocity() - coupling_.multiplier * leader_->velocity() + back;
 }

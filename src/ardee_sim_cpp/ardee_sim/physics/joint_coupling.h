@@ -16,6 +16,9 @@ class JointCoupling {
   JointCoupling(const Coupling& coupling, ModelJoint& leader, ModelJoint& follower)
       : coupling_(coupling), leader_(&leader), follower_(&follower) {}
 
+  const ModelJoint* leader() const { return leader_; }
+  /// Position of the follower that the leader's asks for.
+  double wanted() const { return coupling_.multiplier * leader_->position() + coupling_.offset; }
   /// Excess of the follower's velocity after a step, given the positions before it.
   double excess(double step_s) const;
   void push(double impulse, double step_s) const;

@@ -2,6 +2,7 @@
 #include "ardee_sim/readers/schema.h"
 
 #include <charconv>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -36,6 +37,29 @@ bool says_the_same(const std::string& one, const std::string& other) {
     if (!(second >> b) || canonical(a) != canonical(b)) return false;
   }
   return !(second >> b);
+}
+
+/// Elements of which one counts, in each format.
+const std::set<std::string, std::less<>> kOnce{
+    "pose", "inertial", "geometry", "gravity", "static", "mass",     "inertia",
+    "axis", "limit",    "origin",   "parent",  "child",  "dynamics", "mimic"};
+/// Elements of SDF whose names tell them from their siblings; for others somebody else checks it.
+const std::set<std::string, std::less<>> kNamed{"collision", "visual", "sensor", "light"};
+
+/// Warns of elements of which only the first counts, and of siblings of one name.
+void warn_of_repeats(const Node& node, bool is_sdf, Log& log) {
+  std::set<std::string> seen;
+  node.each([&](const Node& child) {
+    const std::string kind(child.name());
+    const std::string name = child.attribute("name");
+    if (kOnce.count(kind) != 0 && !seen.insert(kind).second) {
+      log.warn(child.source(), "found a second one in <" + std::string(node.name()) +
+                                   ">, expected one: only the first counts");
+    } else if (is_sdf && kNamed.count(kind) != 0 && !name.empty() &&
+               !seen.insert(kind + ' ' + name).second) {
+      log.warn(child.source(), "found a second one of the name '" + name + "', expected another");
+    }
+  });
 }
 
 bool is_harmless(const std::string& text, const Schema::Entry& entry) {
@@ -107,6 +131,7 @@ void Schema::check_inside(const Node& node, const Place& inside, Log& log) const
     }
   });
   if (inside.is_elsewhere) return;
+  warn_of_repeats(node, format_ == "SDF", log);
   node.each([&](const Node& child) {
     const auto known = inside.entries.find(child.name());
     if (known == inside.entries.end()) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/description/bounds.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/readers/sdf_parts.h"
@@ -138,10 +141,61 @@ PluginDescription read_plugin(const Node& plugin) {
   return made;
 }
 
-SensorDescription read_sensor(const Node& sensor, const Pose& X_LS) {
+namespace {
+
+/// Types of SDF 1.2 to 1.12.
+const std::vector<std::string> kSensorTypes{"air_pressure",
+                                            "air_speed",
+                                            "altimeter",
+                                            "boundingbox_camera",
+                                            "camera",
+                                            "contact",
+                                            "custom",
+                                            "depth",
+                                            "depth_camera",
+                                            "force_torque",
+                                            "gps",
+                                            "gpu_lidar",
+                                            "gpu_ray",
+                                            "imu",
+                                            "lidar",
+                                            "logical_camera",
+                                            "magnetometer",
+                                            "multicamera",
+                                            "navsat",
+                                            "none",
+                                            "ray",
+                                            "rfid",
+                                            "rfidtag",
+                                            "rgbd",
+                                            "rgbd_camera",
+                                            "segmentation_camera",
+                                            "sonar",
+                                            "thermal",
+                                            "thermal_camera",
+                                            "wide_angle_camera",
+                                            "wideanglecamera",
+                                            "wireless_receiver",
+                                            "wireless_transmitter"};
+
+/// Warns of a type that no sensor has, or whose lens is drawn as another.
+void check_type(const Node& sensor, const std::string& type, Log& log) {
+  if (std::find(kSensorTypes.begin(), kSensorTypes.end(), type) == kSensorTypes.end()) {
+    log.warn(sensor.source(), "found type '" + type + "', expected one of: " +
+                                  nearest_names(type, kSensorTypes) + "; its plugin alone counts");
+  } else if (type == "wideanglecamera" || type == "wide_angle_camera") {
+    log.warn(sensor.source(),
+             "found a wide-angle camera, expected a pinhole, as which it is drawn");
+  }
+}
+
+}  // namespace
+
+SensorDescription read_sensor(const Node& sensor, const Pose& X_LS, Log& log) {
   SensorDescription made;
   made.name = sensor.required_attribute("name");
   made.type = sensor.required_attribute("type");
+  check_type(sensor, made.type, log);
   try {
     made.update_rate_hz = sensor.number("update_rate", 0.0);
   } catch (const Error&) {
@@ -170,8 +224,9 @@ Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets) {
       made.visuals.push_back(read_visual(node, X_L(node), std::move(*geometry), assets));
     }
   });
-  link.each("sensor",
-            [&](const Node& node) { made.sensors.push_back(read_sensor(node, X_L(node))); });
+  link.each("sensor", [&](const Node& node) {
+    made.sensors.push_back(read_sensor(node, X_L(node), assets.log()));
+  });
   made.gravity = link.boolean("gravity", true);
   made.kinematic = link.boolean("kinematic", false);
   made.self_collide = link.boolean("self_collide", false);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/readers/gz_systems.h"
@@ -50,20 +51,36 @@ int SdfReader::read_version(const Node& root) {
   return nearest;
 }
 
+void SdfReader::warn_of_others(const Node& parent, const Node& read) const {
+  bool is_first = true;
+  parent.each([&](const Node& child) {
+    const auto name = child.name();
+    if (name != "model" && name != "light" && name != "world" && name != "include") return;
+    const bool is_read = name == read.name() && std::exchange(is_first, false);
+    if (!is_read) {
+      assets_.log().warn(child.source(), "found it beside the <" + std::string(read.name()) +
+                                             "> that is read, expected that alone; it is left out");
+    }
+  });
+}
+
 std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
   sdf_schema().check(root, assets_.log());
   reading_.assign(1, root.file());
   // gazebo_ros's spawn scripts wrap models of the model database in a world.
   const auto world = root.child("world");
-  const auto include = world ? world->child("include") : std::nullopt;
+  const Node parent = world && !root.child("model") ? *world : root;
+  const auto include = parent.child("include");
   std::shared_ptr<const Model> model;
-  if (!root.child("model") && include) {
+  if (include && !root.child("model")) {
+    warn_of_others(parent, *include);
     model = included_file(*include, std::nullopt).model;
     if (!model) throw include->error("found no model in what it names, expected one");
   } else {
-    model =
-        read_own_model((world && !root.child("model") ? *world : root).required("model"), scope);
+    const Node own = parent.required("model");
+    warn_of_others(parent, own);
+    model = read_own_model(own, scope);
   }
   reading_.clear();
   return model;
@@ -73,6 +90,7 @@ Light SdfReader::read_light(const Node& root) {
   read_version(root);
   sdf_schema().check(root, assets_.log());
   const Node light = root.required("light");
+  warn_of_others(root, light);
   return read_sdf_light(light, light.pose());
 }
 

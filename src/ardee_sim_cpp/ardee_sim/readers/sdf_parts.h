@@ -50,7 +50,7 @@ Surface read_sdf_surface(const Node& collision, Surface made = {});
 /// Reads a <mu>: a negative value is infinite, as in Gazebo; an empty one is `otherwise`.
 double read_friction(const Node& mu, double otherwise);
 
-SensorDescription read_sensor(const Node& sensor, const Pose& X_LS);
+SensorDescription read_sensor(const Node& sensor, const Pose& X_LS, Log& log);
 PluginDescription read_plugin(const Node& plugin);
 
 /// Context that the joints of a model refer to; it holds all links.

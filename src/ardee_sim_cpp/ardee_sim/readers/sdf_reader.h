@@ -74,6 +74,8 @@ class SdfReader {
   void read_insertions(const Node& insertions, const Scope& scope, World& made);
   void check_size(const World& world) const;
   int read_version(const Node& root);
+  /// Warns of models, lights and worlds beside the one that is read.
+  void warn_of_others(const Node& parent, const Node& read) const;
   std::size_t count_placements(const Model& model, const Source& source);
 
   Assets& assets_;

@@ -16,9 +16,9 @@ constexpr char kNoWindow[] = "the simulator has no window; rviz is the view";
 
 const std::vector<SchemaRow>& world_rows() {
   static const std::vector<SchemaRow> rows{
-      {"sdf", acts, "@version world model light"},
+      {"sdf", acts, "@version world model light include"},
       {"sdf", no_effect, "actor", "there are no actors"},
-      {"gazebo", acts, "@version world model light", "the root of SDF 1.2"},
+      {"gazebo", acts, "@version world model light include", "the root of SDF 1.2"},
       {"gazebo", no_effect, "actor", "there are no actors"},
       {"world", acts,
        "@name include gravity physics scene gui light frame model plugin spherical_coordinates "

@@ -39,6 +39,7 @@ World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
   sdf_schema().check(root, assets_.log());
   const Node node = root.required("world");
+  warn_of_others(root, node);
   World made;
   made.name = node.attribute("name", made.name);
   made.source = node.source();

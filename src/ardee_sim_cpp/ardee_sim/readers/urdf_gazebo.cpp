@@ -88,11 +88,16 @@ void apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
   if (name == "sensor") {
-    link.sensors.push_back(read_sensor(node, node.pose()));
+    link.sensors.push_back(read_sensor(node, node.pose(), assets.log()));
   } else if (is_empty(node)) {
     return;
   } else if (rule != surface_rules().end()) {
+    Surface unused;
+    rule->second(node, unused);  // checks the value
     each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
+    if (link.collisions.empty()) {
+      assets.log().warn(node.source(), "has no effect: the link has no collision");
+    }
   } else if (name == "material") {
     set_material(node, link, assets);
   } else if (name == "visual") {

@@ -70,7 +70,7 @@ struct BoundedNumbers {
 };
 
 constexpr BoundedNumbers kBounded[] = {
-    {"mu mu2", bounds::kFriction},
+    {"friction/torsional/coefficient", bounds::kFriction},
     {"slip1 slip2", bounds::kSlip},
     {"kp", bounds::kStiffness},
     {"kd", bounds::kDamping},

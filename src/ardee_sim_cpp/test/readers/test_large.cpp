@@ -30,7 +30,7 @@ std::string chain(int links, const std::string& type, const std::string& in_link
     text += "<joint name='j" + number + "' type='" + type + "'><parent link='l" +
             std::to_string(i - 1) + "'/><child link='l" + number +
             "'/><origin xyz='0 0 0.001'/></joint>" + "<gazebo reference='l" + number +
-            "'><mu1>1</mu1></gazebo>" + in_joint;
+            "'><selfCollide>0</selfCollide></gazebo>" + in_joint;
   }
   return text;
 }

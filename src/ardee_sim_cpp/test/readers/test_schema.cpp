@@ -70,6 +70,29 @@ TEST_F(SchemaTest, WarnsOnceOfEachThatHasNoEffectAndSaysWhy) {
   EXPECT_TRUE(warned("<projector>: has no effect: not supported in a link, left out"));
 }
 
+TEST_F(SchemaTest, WarnsOfASecondOneWhereOneCounts) {
+  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+  const auto made =
+      model("<pose>1 0 0 0 0 0</pose><pose>2 0 0 0 0 0</pose><link name='l'><collision name='c'>" +
+            ball + "</collision><collision name='c'>" + ball + "</collision></link>");
+  EXPECT_EQ(made->own_pose.p.x(), 1.0);
+  ASSERT_EQ(warnings_->size(), 2u);
+  EXPECT_TRUE(warned("<pose>: found a second one in <model>, expected one: only the first counts"));
+  EXPECT_TRUE(warned("<collision>: found a second one of the name 'c', expected another"));
+}
+
+TEST_F(SchemaTest, WarnsOfWhatStandsBesideTheModelThatIsRead) {
+  const std::string link = "<link name='l'/></model>", light = "<light name='s' type='point'/>";
+  for (const std::string& text : {"<model name='m'>" + link + "<model name='n'>" + link,
+                                  "<world name='w'><model name='m'>" + link + light + "</world>"}) {
+    warnings_->clear();
+    const auto made = loader_.load_model_text("<sdf version='1.6'>" + text + "</sdf>", "test.sdf");
+    EXPECT_EQ(made->name, "m");
+    ASSERT_EQ(warnings_->size(), 1u) << text;
+    EXPECT_TRUE(warned("found it beside the <model> that is read, expected that alone"));
+  }
+}
+
 TEST_F(SchemaTest, WhatSaysTheSameAsItsAbsenceIsNoWarning) {
   world(
       "<magnetic_field>6e-06 2.3e-05 -4.2e-05</magnetic_field><wind/><atmosphere type='adiabatic'/>"
@@ -114,7 +137,8 @@ TEST_F(SchemaTest, LooksIntoGazeboBlocksOfUrdf) {
       "<sensor name='s' type='ray'><ray><scan><horizontl/></scan></ray>"
       "<plugin name='p' filename='f'/></sensor><visual><transparancy>1</transparancy></visual>"
       "</gazebo><gazebo><enable_wind>true</enable_wind></gazebo>");
-  ASSERT_EQ(warnings_->size(), 4u);
+  ASSERT_EQ(warnings_->size(), 5u);
+  EXPECT_TRUE(warned("<mu1>: has no effect: the link has no collision"));
   EXPECT_TRUE(warned("<light>: has no effect: not supported in a link, left out"));
   EXPECT_TRUE(warned("<horizontl>: not an element of <scan> in URDF, ignored"));
   EXPECT_TRUE(warned("<transparancy>: not an element of <visual> in URDF, ignored"));

@@ -331,5 +331,18 @@ TEST_F(Urdf, ARootLinkCalledWorldIsTheWorld) {
   EXPECT_EQ(m->links.at(0).X_ML.p.z(), 1.0);
 }
 
+TEST_F(Urdf, WarnsOfSurfaceValuesOfALinkWithoutACollision) {
+  const std::string link = "<link name='l'/><gazebo reference='l'><mu1>";
+  robot(link + "0.5</mu1></gazebo>");
+  ASSERT_EQ(warnings_->size(), 1u);
+  EXPECT_TRUE(warned("<mu1>: has no effect: the link has no collision"));
+  EXPECT_HAS(error_of([&] { robot(link + "abc</mu1></gazebo>"); }), "<mu1>: found 'abc'");
+}
+
+TEST_F(Urdf, WarnsOfASensorTypeThatIsNone) {
+  robot("<link name='l'/><gazebo reference='l'><sensor name='s' type='imuu'/></gazebo>");
+  EXPECT_TRUE(warned("<sensor>: found type 'imuu', expected one of: imu, "));
+}
+
 }  // namespace
 }  // namespace ardee

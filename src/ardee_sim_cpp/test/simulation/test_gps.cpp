@@ -213,7 +213,7 @@ TEST(Gps, times_come_from_rate_or_period_and_offset) {
 TEST(Gps, bad_values_leave_it_out_and_say_where) {
   for (const char* each :
        {"<referenceLatitude>91</referenceLatitude>", "<bodyName>wing</bodyName>",
-        "<drift>-1</drift>", "<updateRate>-1</updateRate>", "<projection>mercator</projection>",
+        "<drift>-1</drift>", "<updateRate>often</updateRate>", "<projection>mercator</projection>",
         "<status>7</status>", "<velocityGaussianNoise>nan</velocityGaussianNoise>"}) {
     TestWorld world(free_space(0.0));
     EXPECT_TRUE(world.spawn(ball(gps(each)), "ball").devices.empty()) << each;

@@ -271,7 +271,7 @@ TEST(Imu, stock_model_plugin_has_no_gravity_unless_asked) {
 TEST(Imu, bad_values_leave_the_unit_out_and_say_where) {
   const std::string bad[] = {
       hector("<bodyName>wing</bodyName>"),
-      hector("<updateRate>-5</updateRate>"),
+      hector("<updateRate>often</updateRate>"),
       hector("<accelGaussianNoise>-1</accelGaussianNoise>"),
       hector("<rateDrift>much</rateDrift>"),
       hector("<vibrationStdAccel>1 -1 0</vibrationStdAccel>"),

@@ -50,6 +50,22 @@ TEST(MimicJoint, FollowsWithAnOffsetAlsoAfterAReset) {
   }
 }
 
+TEST(MimicJoint, IsPlacedWithItsLeaderWhichStays) {
+  TestWorld world(free_space(0.0));
+  Entity& robot = world.spawn(
+      post("<joint>post::ja</joint><mimicJoint>post::jb</mimicJoint><multiplier>-2</multiplier>"
+           "<offset>0.1</offset>",
+           kRobotics),
+      "post");
+  EXPECT_NEAR(angle(robot, "jb"), 0.1, 1e-12);
+  robot.robot->dynamics().set_joint_position(robot.robot->joint_index("ja", {}), 0.5);
+  EXPECT_NEAR(angle(robot, "jb"), -0.9, 1e-12);
+  world.run(1.0);
+  EXPECT_NEAR(angle(robot, "ja"), 0.5, 1e-9);
+  robot.robot->dynamics().set_joint_position(robot.robot->joint_index("jb", {}), 2.0);
+  EXPECT_NEAR(angle(robot, "jb"), -0.9, 1e-9);
+}
+
 TEST(MimicJoint, AnEffortBoundsTheFollowerOfAPid) {
   // A torque of 0.2 N m acts on 0.1 kg m^2 for 0.5 s.
   TestWorld world(free_space(0.0));

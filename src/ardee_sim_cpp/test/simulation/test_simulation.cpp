@@ -88,14 +88,24 @@ TEST(Simulation, WithoutALogSinkWarningsGoToStandardError) {
 TEST(Simulation, ABadPluginValueRefusesTheSpawnAndLeavesNothing) {
   TestWorld world("");
   const std::string plugin =
-      "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>"
-      "<jointName>no_such</jointName></plugin>";
+      "<plugin name='p' filename='libgazebo_ros_diff_drive.so'>"
+      "<leftJoint>no_such</leftJoint><rightJoint>nor_this</rightJoint></plugin>";
   const std::string message = refusal([&] { world.spawn(ball(plugin), "ball", kHigh); });
   EXPECT_NE(message.find("found joint 'no_such'"), std::string::npos) << message;
   EXPECT_NE(message.find("ball.urdf:1"), std::string::npos) << message;
   EXPECT_EQ(world->find("ball"), nullptr);
   world.run(0.1);
   world.spawn(ball(), "ball", kHigh);
+}
+
+TEST(Simulation, ABadValueOfAPluginThatPublishesLeavesThePluginOut) {
+  TestWorld world("");
+  const std::string plugin =
+      "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>"
+      "<jointName>no_such</jointName></plugin>";
+  const Entity& robot = world.spawn(ball(plugin), "ball", kHigh);
+  EXPECT_TRUE(robot.devices.empty());
+  EXPECT_TRUE(any_contains(world.messages(), "is left out: ball.urdf:1: <plugin>: found joint"));
 }
 
 /// Two good models, and between them one with a plane that moves, and one with a drive without its

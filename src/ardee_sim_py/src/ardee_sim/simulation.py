@@ -113,7 +113,7 @@ class Simulation:
     def _loaded(self, name: str, model: Union[str, Path]) -> "_core.Model":
         if not isinstance(model, str):
             return self.world.load_model(read_text(checks.path(model, "model")), str(model))
-        if not model.lstrip().startswith("<"):
+        if not model.lstrip("\ufeff \t\r\n").startswith("<"):
             raise ArdeeError(
                 f"found the model {model[:80]!r}, expected URDF or SDF text, as robot() returns it, or a pathlib.Path"
             )

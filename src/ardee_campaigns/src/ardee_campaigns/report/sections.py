@@ -61,7 +61,9 @@ class Report:
     def means(self) -> None:
         """Adds the mean of each measure, for each combination that is not a scale, and of all runs together."""
         self.page.heading("Means")
-        self.page.text("Mean of the fields' means, and its 95 % interval (Student, over the fields); SI units.")
+        self.page.text(
+            "Mean of the fields' means, and its 95 % interval (Student, over the fields); SI units."
+        )
         names = [name for name in (*NAMES, *self.runs.varied()) if name in self.runs.varied()]
         names = [n for n in dict.fromkeys(names) if not statistics.is_scale(self.runs, n)]
         names = names or [self.by]
