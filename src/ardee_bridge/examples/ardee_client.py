@@ -109,12 +109,12 @@ def number_in(kind: type, low: float, high: float, expected: str) -> Callable[[s
 
 
 def address(text: str) -> str:
-    """Returns an IPv4 address as it is."""
+    """Returns the IPv4 address of a computer or group, given by it or by a name."""
     try:
-        socket.inet_pton(socket.AF_INET, text)
+        return socket.gethostbyname(text)
     except OSError:
-        raise argparse.ArgumentTypeError(f"found {text}, expected an IPv4 address") from None
-    return text
+        expected = "expected an IPv4 address or a known name"
+        raise argparse.ArgumentTypeError(f"found {text}, {expected}") from None
 
 
 def join(opened: socket.socket, group: str, simulator: str) -> None:
