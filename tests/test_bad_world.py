@@ -30,10 +30,10 @@ BAD_WORLDS = {
             "</world>",
             '<model name="m"><link name="a"/><link name="b"><pose>1 0 0 0 0 0</pose></link>'
             '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>'
-            '</axis></joint><plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">'
-            "<robotNamespace>the field</robotNamespace><jointName>j</jointName></plugin></model></world>",
+            '</axis></joint><plugin name="push" filename="libgazebo_ros_force.so"><bodyName>a</bodyName>'
+            "<topicName>the field/push</topicName></plugin></model></world>",
         ),
-        "plugin 'joints': found '/the field/joint_states' as a topic or service",
+        "plugin 'push': found '/the field/push' as a topic or service",
     ),
     "box without size": (PLANE.replace("1 20 2", "1 -20 2"), "size"),
 }
