@@ -147,6 +147,7 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
     }
   }
   for (const std::size_t each : moved) {
+    // A follower stands where its leader puts it, as in Gazebo.
     const auto own = couplings_.find(model_->joints[each].name);
     place_joint(each, own != couplings_.end() ? own->second.wanted() : position);
   }
