@@ -200,6 +200,26 @@ def test_states_are_set_and_read_in_any_frame(world: RosGraph) -> None:
     assert in_post.header.frame_id == "post"
 
 
+def test_a_model_within_a_model_has_a_state_of_its_own(world: RosGraph) -> None:
+    ball = BALL[BALL.index("<model") : BALL.index("</sdf>")]
+    inside = "<model name='tray'><pose>1 0 0 0 0 0</pose><link name='plate'/></model>"
+    carrier = f"<sdf version='1.9'>{ball.replace('</model>', inside + '</model>')}</sdf>"
+    wanted = ModelState("ball::tray", pose(x=4, z=3), Twist(), "")
+    answers = call(
+        world,
+        empty("pause_physics"),
+        spawn("ball", carrier, pose(z=3)),
+        state("ball::tray"),
+        ("/gazebo/set_model_state", "gazebo_msgs/SetModelState", {"model_state": wanted}),
+        state("ball"),
+        ("/gazebo/get_model_properties", "gazebo_msgs/GetModelProperties", {"model_name": "ball"}),
+    )
+    assert answers[2].pose.position.x == pytest.approx(1.0, abs=1e-9)
+    assert answers[3].success, answers[3].status_message
+    assert answers[4].pose.position.x == pytest.approx(3.0, abs=1e-9)
+    assert answers[5].child_model_names == ["tray"]
+
+
 def test_the_state_of_an_unknown_model_is_refused(world: RosGraph) -> None:
     missing = ModelState("ghost", pose(), Twist(), "")
     set_answer, get_answer = call(

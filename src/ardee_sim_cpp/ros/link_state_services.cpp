@@ -20,17 +20,12 @@ std::string get_state(ServiceContext& context, const gazebo_msgs::GetLinkStateRe
   return "GetLinkState: got state";
 }
 
-/// Moves a link with its whole model and keeps the joints; a link moved alone would break them.
 void set_state(ServiceContext& context, const gazebo_msgs::LinkState& wanted) {
-  const LinkRef ref = require_link(context, wanted.link_name);
+  require_link(context, wanted.link_name);
   frame_in_world(context, wanted.reference_frame, "reference_frame");
-  const Pose X_LM = context.simulation.state(ref.entity.name(), wanted.link_name).pose;
-  RelativeState state{from_ros(wanted.pose) * X_LM, from_ros(wanted.twist)};
+  const RelativeState state{from_ros(wanted.pose), from_ros(wanted.twist)};
   if (!is_finite(state.twist)) throw Error("found a twist that is not finite");
-  // The request gives the velocity of the link's origin; the model needs that of its own origin.
-  const Eigen::Vector3d arm_R = state.pose.p - from_ros(wanted.pose.position);
-  state.twist.linear += state.twist.angular.cross(arm_R);
-  context.simulation.set_state(ref.entity.name(), state, wanted.reference_frame);
+  context.simulation.set_state(wanted.link_name, state, wanted.reference_frame);
 }
 
 }  // namespace

@@ -10,9 +10,13 @@
 namespace ardee::node {
 namespace {
 
+void require_model_or_nested(ServiceContext& context, const std::string& name) {
+  if (!context.simulation.find_nested(name)) require_model(context, name);
+}
+
 std::string get_state(ServiceContext& context, const gazebo_msgs::GetModelStateRequest& request,
                       gazebo_msgs::GetModelStateResponse& response) {
-  require_model(context, request.model_name);
+  require_model_or_nested(context, request.model_name);
   frame_in_world(context, request.relative_entity_name, "relative_entity_name");
   const RelativeState state =
       context.simulation.state(request.model_name, request.relative_entity_name);
@@ -24,7 +28,7 @@ std::string get_state(ServiceContext& context, const gazebo_msgs::GetModelStateR
 }
 
 void set_state(ServiceContext& context, const gazebo_msgs::ModelState& wanted) {
-  require_model(context, wanted.model_name);
+  require_model_or_nested(context, wanted.model_name);
   frame_in_world(context, wanted.reference_frame, "reference_frame");
   const RelativeState state{from_ros(wanted.pose), from_ros(wanted.twist)};
   if (!is_finite(state.twist)) throw Error("found a twist that is not finite");

@@ -32,6 +32,10 @@ std::string get_model(ServiceContext& context, const std::string& name,
   }
   for (const Joint& joint : model.joints) response.joint_names.push_back(joint.name);
   for (const Instance& child : model.instances) response.child_model_names.push_back(child.name);
+  for (const NamedFrame& frame : model.frames) {
+    const bool within_another = frame.name.find("::") != std::string::npos;
+    if (frame.is_model && !within_another) response.child_model_names.push_back(frame.name);
+  }
   response.is_static = entity.is_static();
   return "GetModelProperties: got properties";
 }

@@ -64,10 +64,12 @@ std::optional<NamedFrame> Model::find_frame(const std::string& frame_name) const
   if (const NamedFrame* frame = find_named(frames, frame_name)) return *frame;
   for (const Instance& instance : instances) {
     const std::string prefix = instance.name + "::";
-    if (frame_name == instance.name) return NamedFrame{frame_name, instance.pose, ""};
+    if (frame_name == instance.name) return NamedFrame{frame_name, instance.pose, "", true};
     if (frame_name.compare(0, prefix.size(), prefix) != 0) continue;
     const auto inside = instance.model->find_frame(frame_name.substr(prefix.size()));
-    if (inside) return NamedFrame{frame_name, instance.pose * inside->X_MF, ""};
+    if (inside) {
+      return NamedFrame{frame_name, instance.pose * inside->X_MF, "", inside->is_model};
+    }
   }
   return std::nullopt;
 }

@@ -194,7 +194,8 @@ struct Coupling {
 struct NamedFrame {
   std::string name;
   Pose X_MF;
-  std::string link;  // empty: the canonical one
+  std::string link;       // empty: the canonical one
+  bool is_model = false;  // of a nested model that was merged into this one
 };
 
 struct Model;

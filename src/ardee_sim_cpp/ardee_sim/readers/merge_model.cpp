@@ -57,10 +57,10 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
   made.allow_auto_disable = made.allow_auto_disable && nested.allow_auto_disable;
   for (NamedFrame frame : nested.frames) {
     frame.link = scoped(frame.link.empty() ? nested.canonical_link : frame.link);
-    made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link});
+    made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link, frame.is_model});
   }
   // The model itself is a frame, to which other elements may refer.
-  if (!name.empty()) made.frames.push_back({name, X_MN, prefix + nested.canonical_link});
+  if (!name.empty()) made.frames.push_back({name, X_MN, prefix + nested.canonical_link, true});
   for (PluginDescription plugin : nested.plugins) {
     plugin.scope = prefix + plugin.scope;
     made.plugins.push_back(std::move(plugin));

@@ -19,13 +19,12 @@ double Camera::focal_length_px() const {
   return lens ? lens->lens().fx_px : 0.5 * width / std::tan(0.5 * horizontal_fov_rad);
 }
 
-Eigen::Vector3d Camera::direction_C(double x_px, double y_px) const {
+Eigen::Vector3d Camera::direction_C(double x_px, double y_px, double focal_px) const {
   if (lens) {
     const Eigen::Vector2d plane = lens->plane(x_px, y_px);
     return {1.0, -plane.x(), -plane.y()};
   }
-  const double f = focal_length_px();
-  return {1.0, (0.5 * width - x_px) / f, (0.5 * height - y_px) / f};
+  return {1.0, (0.5 * width - x_px) / focal_px, (0.5 * height - y_px) / focal_px};
 }
 
 Eigen::Vector3d Camera::direction_W(double x_px, double y_px) const {

@@ -41,7 +41,11 @@ struct Camera {
   /// Returns the direction in the camera's axes through (x, y) in pixels, of length 1 along the
   /// axis; (0, 0) is the upper left corner of the upper left pixel. It is not finite if the lens
   /// lets no light through.
-  Eigen::Vector3d direction_C(double x_px, double y_px) const;
+  Eigen::Vector3d direction_C(double x_px, double y_px) const {
+    return direction_C(x_px, y_px, focal_length_px());
+  }
+  /// Returns the same for a focal length that is known already; many rays ask once.
+  Eigen::Vector3d direction_C(double x_px, double y_px, double focal_px) const;
   /// Returns whether direction_C is linear in x and y.
   bool is_straight() const { return !lens || lens->lens().is_straight(); }
   /// Returns the unit direction in the world.

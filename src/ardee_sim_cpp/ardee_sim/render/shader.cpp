@@ -37,8 +37,8 @@ std::uint32_t bit_of(std::size_t lamp) { return lamp < 32 ? 1u << lamp : 0u; }
 void Shader::begin(const TileShading& shading) {
   s_ = &shading;
   R_WC_ = shading.camera.X_WC.q.toRotationMatrix();
-  pixel_rad_ = 1.0 / (shading.camera.focal_length_px() *
-                      std::sqrt(static_cast<double>(shading.options.samples)));
+  focal_px_ = shading.camera.focal_length_px();
+  pixel_rad_ = 1.0 / (focal_px_ * std::sqrt(static_cast<double>(shading.options.samples)));
   distant_.clear();
   for (const Light& light : shading.lights) {
     const bool distant = light.type == Light::Type::kDirectional;
@@ -74,7 +74,7 @@ void Shader::enqueue(const raycast::PrimaryRayPacket& glances, int ray,
 
 void Shader::enqueue(double x_px, double y_px) {
   Sample& sample = samples_.emplace_back();
-  const Eigen::Vector3d way_C = s_->camera.direction_C(x_px, y_px);
+  const Eigen::Vector3d way_C = s_->camera.direction_C(x_px, y_px, focal_px_);
   const double stretch = way_C.norm();
   if (!(stretch < std::numeric_limits<double>::infinity())) return;
   const Eigen::Vector3d direction_W = R_WC_ * (way_C * (1.0 / stretch));

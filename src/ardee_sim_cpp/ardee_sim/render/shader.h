@@ -109,6 +109,7 @@ class Shader {
 
   const TileShading* s_ = nullptr;
   Eigen::Matrix3d R_WC_;
+  double focal_px_ = 1.0;
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // lights that are the same everywhere
   std::vector<Sample> samples_;

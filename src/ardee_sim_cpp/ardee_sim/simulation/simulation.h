@@ -59,6 +59,12 @@ struct LinkOf {
   std::size_t link = 0;
 };
 
+/// A model within a model in the world.
+struct NestedModel {
+  Entity* entity = nullptr;  // the outermost one
+  NamedFrame frame;
+};
+
 /// A world with its robots: load, spawn, remove, reset, step. Not thread-safe: one thread owns it,
 /// and services act between steps.
 class Simulation {
@@ -111,6 +117,8 @@ class Simulation {
   /// The link "model::link" (either name may hold colons itself), else the first link of any model
   /// that has the whole name, as Gazebo finds it.
   std::optional<LinkOf> find_link(const std::string& name) const;
+  /// The model "model::nested".
+  std::optional<NestedModel> find_nested(const std::string& name) const;
   /// All entities in the order of the world's file, then in the order of spawning.
   const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 
@@ -156,14 +164,15 @@ class Simulation {
   /// first directional light, or a new one 'sun'. Throws Error if a number is out of its range.
   void set_daylight(const Daylight& day);
 
-  /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
-  /// name, or to the world (names_world). Throws Error for an unknown name.
+  /// Pose and velocity (axes of the reference) of "model", "model::link" or "model::nested"
+  /// relative to another such name, or to the world (names_world). Throws Error for an unknown
+  /// name.
   RelativeState state(const std::string& name, const std::string& reference) const;
-  /// Moves a model. The pose is relative to `reference`; the velocity is the one that the model
-  /// gets in the world, in the axes of `reference`, whose own velocity is not added (as in
-  /// gazebo_ros). Throws Error if the state is not valid, and changes nothing then.
-  void set_state(const std::string& model, const RelativeState& state,
-                 const std::string& reference);
+  /// Moves a model, or the whole model of a link or nested model, which keeps its joints: a part
+  /// moved alone would break them. The pose is relative to `reference`; the velocity is the one
+  /// that what is named gets in the world, in the axes of `reference`, whose own velocity is not
+  /// added (as in gazebo_ros). Throws Error if the state is not valid, and changes nothing then.
+  void set_state(const std::string& name, const RelativeState& state, const std::string& reference);
   /// Wrenches on links and efforts on joints for a limited time; a reset of the world or of the
   /// model ends them.
   TimedCommands<Wrench>& wrenches() { return wrenches_; }
@@ -207,6 +216,12 @@ class Simulation {
   void serialize_commands(StateArchive& archive);
   /// Removes and adds models so that these are there, in this order.
   void keep_only(const std::vector<SimulationState::EntityState>& wanted);
+  /// What a name of a model, link or nested model stands for.
+  struct Named {
+    Entity* entity;
+    RelativeState state_W;
+  };
+  std::optional<Named> find_named(const std::string& name) const;
   RelativeState state_in_world(const std::string& name) const;
 
   std::shared_ptr<const World> world_;

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Poses and velocities of models and links, relative to one another: the part of Simulation that
-// services ask for.
+// Poses and velocities of models, nested ones too, and of links, relative to one another: the part
+// of Simulation that services ask for.
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
+namespace {
+
+/// State of what stands at `X_CF` in a carrier.
+RelativeState carried(const RelativeState& carrier_W, const Pose& X_CF) {
+  RelativeState state{carrier_W.pose * X_CF, carrier_W.twist};
+  const Eigen::Vector3d arm_W = state.pose.p - carrier_W.pose.p;
+  state.twist.linear += state.twist.angular.cross(arm_W);
+  return state;
+}
+
+RelativeState link_in_world(const devices::Robot& robot, std::size_t link) {
+  return {robot.link_pose(link), robot.link_twist(link)};
+}
+
+}  // namespace
 
 bool names_world(const std::string& name) {
   return name.empty() || name == "world" || name == "map" || name == "/map";
@@ -24,15 +39,38 @@ std::optional<LinkOf> Simulation::find_link(const std::string& name) const {
   return unscoped;
 }
 
-RelativeState Simulation::state_in_world(const std::string& name) const {
-  if (names_world(name)) return {};
+std::optional<NestedModel> Simulation::find_nested(const std::string& name) const {
   for (const auto& entity : entities_) {
-    if (entity->name() == name) return {entity->robot->pose(), entity->robot->twist()};
+    const std::string prefix = entity->name() + "::";
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const auto frame = entity->robot->model().find_frame(name.substr(prefix.size()));
+    if (frame && frame->is_model) return NestedModel{entity.get(), *frame};
+  }
+  return std::nullopt;
+}
+
+std::optional<Simulation::Named> Simulation::find_named(const std::string& name) const {
+  for (const auto& entity : entities_) {
+    const devices::Robot& robot = *entity->robot;
+    if (entity->name() == name) return Named{entity.get(), {robot.pose(), robot.twist()}};
   }
   if (const auto found = find_link(name)) {
-    const devices::Robot& robot = *found->entity->robot;
-    return {robot.link_pose(found->link), robot.link_twist(found->link)};
+    return Named{found->entity, link_in_world(*found->entity->robot, found->link)};
   }
+  const auto nested = find_nested(name);
+  if (!nested) return std::nullopt;
+  const devices::Robot& robot = *nested->entity->robot;
+  const NamedFrame& frame = nested->frame;
+  const Link* link = robot.model().find_link(frame.link);
+  if (!link) return Named{nested->entity, carried({robot.pose(), robot.twist()}, frame.X_MF)};
+  const auto number = static_cast<std::size_t>(link - robot.model().links.data());
+  return Named{nested->entity,
+               carried(link_in_world(robot, number), link->X_ML.inverse() * frame.X_MF)};
+}
+
+RelativeState Simulation::state_in_world(const std::string& name) const {
+  if (names_world(name)) return {};
+  if (const auto found = find_named(name)) return found->state_W;
   throw Error("'" + name + "' does not exist, expected a model, model::link or world");
 }
 
@@ -50,23 +88,27 @@ RelativeState Simulation::state(const std::string& name, const std::string& refe
   return relative;
 }
 
-void Simulation::set_state(const std::string& model, const RelativeState& state,
+void Simulation::set_state(const std::string& name, const RelativeState& state,
                            const std::string& reference) {
-  Entity* entity = find(model);
-  if (!entity) throw Error("model '" + model + "' does not exist");
+  const auto found = find_named(name);
+  if (!found) throw Error("model '" + name + "' does not exist");
   if (!state.pose.is_finite() || !state.twist.linear.allFinite() ||
       !state.twist.angular.allFinite()) {
-    throw Error("model '" + model + "': found a state that is not finite");
+    throw Error("model '" + name + "': found a state that is not finite");
   }
+  Entity& entity = *found->entity;
   const RelativeState frame = state_in_world(reference);
-  const Pose X_WM = frame.pose * state.pose;
-  if (entity->is_static()) {
-    place_static(*entity, X_WM);
+  RelativeState wanted_W{frame.pose * state.pose,
+                         {frame.pose.q * state.twist.linear, frame.pose.q * state.twist.angular}};
+  if (name != entity.name()) {
+    wanted_W = carried(wanted_W, found->state_W.pose.inverse() * entity.robot->pose());
+  }
+  if (entity.is_static()) {
+    place_static(entity, wanted_W.pose);
     return;
   }
-  const Twist twist_W{frame.pose.q * state.twist.linear, frame.pose.q * state.twist.angular};
-  entity->robot->dynamics().set_state(X_WM, twist_W);
-  for (const auto& device : entity->devices) device->on_set_state();
+  entity.robot->dynamics().set_state(wanted_W.pose, wanted_W.twist);
+  for (const auto& device : entity.devices) device->on_set_state();
   scenes_.invalidate();
 }
 
