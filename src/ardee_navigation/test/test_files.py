@@ -34,6 +34,7 @@ def test_a_scenario_has_its_world_its_plan_and_its_rows(name: str) -> None:
     assert scenario.plan in (None, f"{field}.yaml")
     plan = yaml.safe_load((WORLD / "fields" / f"{field}.yaml").read_text())
     assert scenario.parameters.lane_width_m == plan.get("row_spacing_m", 0.762)
+    from_values(VisionParameters, scenario.vision or {})  # refuses a wrong one
 
 
 def roslaunch(option: str, *arguments: str, display: str = "") -> str:
@@ -107,7 +108,7 @@ def test_bad_parameters_are_named_with_their_line(tmp_path: Path, text: str, mes
 @pytest.mark.parametrize(
     "text, message",
     [
-        ("rice:\n  wrold: rice.world\n", r"s.yaml:2: unknown key 'wrold', known: world, plan, par"),
+        ("rice:\n  wrold: rice.world\n", r"s.yaml:2: unknown key 'wrold', known: world, plan, vis"),
         ("rice:\n  parameters:\n    kq: 1\n", r"s.yaml:3: unknown key 'kq', nearest of .*: kp, "),
         ("rice:\n  parameters:\n    kp: -1\n", r"s.yaml:3: kp: found -1, expected 0 to 10000"),
         ("rice:\n  parameters:\n    lane_width_m: 2.9\n", r"s.yaml:3: beside_min_m, "),
@@ -165,7 +166,8 @@ def test_a_file_of_parameters_leaves_the_others_as_the_scenario_has_them(tmp_pat
     settings = Settings(scenario="tobacco", parameters=str(path))
     assert row_follower_node._parameters(settings) == wanted
     by_camera = row_follower_node._parameters(Settings(follower="vision", scenario="tobacco"))
-    assert by_camera == VisionParameters(lane_width_m=1.0)
+    ends = {"end_confidence": 0.2, "end_after_s": 2.0}
+    assert by_camera == VisionParameters(lane_width_m=1.0, **ends)
     words = ["--scenario", "tobacco", "--parameters", str(path)]
     words += ["--scenarios", str(WORLD / "config" / "scenarios.yaml")]
     assert hil_row_follower._parameters(hil_row_follower._arguments(words)) == wanted

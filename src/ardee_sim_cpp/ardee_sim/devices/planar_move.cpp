@@ -73,7 +73,7 @@ std::unique_ptr<Device> make_planar_move(const PluginDescription& plugin, Parame
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   OdometryPublisher::Params odometry =
       read_odometry_params(parameters, space, context, "base_footprint");
-  odometry.rate_hz = parameters.number("odometryRate", 20.0, 0.0);
+  odometry.rate_hz = parameters.number("odometryRate", 20.0);
   if (odometry.rate_hz > 0.0) params.odometry = odometry;
   parameters.ignore({"alwaysOn"});
   return std::make_unique<PlanarMove>(plugin.name, params, context.robot);

@@ -83,6 +83,15 @@ TEST(PlanarMove, SaysWhereItIsAtItsRate) {
   EXPECT_TRUE(transforms.back().in_odometry_frame);
 }
 
+TEST(PlanarMove, TellsNothingAtARateThatIsNotAboveZero) {
+  for (const char* rate_hz : {"0", "-1"}) {
+    TestWorld world("");
+    world.spawn(mover(std::string("<odometryRate>") + rate_hz + "</odometryRate>"), "mover");
+    world.run(1.0);
+    EXPECT_TRUE(world.recorder().on<OdometryReading>("/odom").empty()) << rate_hz;
+  }
+}
+
 TEST(PlanarMove, ACommandLastsUntilItsTimeoutOrForEver) {
   for (const auto& [keys, way_m] :
        {std::pair("<cmdTimeout>0.5</cmdTimeout>", 0.5),

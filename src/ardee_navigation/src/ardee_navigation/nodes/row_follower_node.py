@@ -4,7 +4,7 @@
 Parameters:
   _follower:=lbirnt   by lidar; vision: by camera
   _scan:=ardee/hokuyo, _picture:=ardee/camera/front/image_raw, _odom:=odom, _cmd:=cmd_vel   topics
-  _scenario:=NAME     the technique's parameters are those of this scenario; of vision the lane's width
+  _scenario:=NAME     the technique's parameters are those of this scenario
   _parameters:=FILE   those in this YAML file differ from the scenario's
   _drive:=true        false: send no commands, only show
 """
@@ -21,6 +21,7 @@ from nav_msgs.msg import Odometry, Path
 from std_msgs.msg import String
 
 from ardee_common import ros_node
+from ardee_common.config import from_values
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option, ros_name
 from ardee_navigation.evaluation.scenario_files import read_parameters
@@ -135,14 +136,16 @@ class Node:
 
 def _parameters(settings: Settings) -> LaneParameters:
     """Returns the technique's parameters of the file, over those of the scenario, over the defaults."""
-    usual, name = Parameters(), settings.scenario
+    usual, of_camera, name = Parameters(), {}, settings.scenario
     if name:
         known = known_scenarios()
         if name not in known:
             raise GeneratorError(f"scenario: found {name!r}, {known_names(name, known)}")
-        usual = known[name].parameters
+        usual, of_camera = known[name].parameters, known[name].vision or {}
     if settings.follower == "vision":
-        usual = VisionParameters(lane_width_m=usual.lane_width_m)
+        usual = from_values(
+            VisionParameters, {"lane_width_m": usual.lane_width_m, **of_camera}
+        )
     return read_parameters(FilePath(settings.parameters), usual) if settings.parameters else usual
 
 
