@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Draws what both ways see before a person steps in, in gaps.world: lost_in_a_gap.py CAMPAIGN OUTPUT.png
+"""Draws what both ways see where the classical one leaves the lane, in gaps.world: lost_in_a_gap.py CAMPAIGN OUTPUT.png
 
 CAMPAIGN is the folder of a campaign vision.yaml that has been run.
 """
@@ -25,7 +25,8 @@ runs = (tables.read_run(folder, run_id) for run_id in tables.finished(folder))
 run = next(
     run
     for run in runs
-    if (run.row.world, run.row.controller, run.row.replicate) == ("gaps", "classical", 0)
+    if (run.row.world, run.row.controller) == ("gaps", "classical")
+    and "off the lane" in run.samples["event"].to_pylist()
 )
 path = run.samples.to_pydict()
 end = path["event"].index("off the lane")

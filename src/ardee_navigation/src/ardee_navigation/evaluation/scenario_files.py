@@ -19,7 +19,9 @@ class Scenario:
     world: str = option("")
     plan: Optional[str] = option(None)
     parameters: Parameters = option(Parameters())
-    vision: Optional[dict] = option(None, "keys of VisionParameters; the lane's width is that above")
+    vision: Optional[dict] = option(
+        None, "keys of VisionParameters; the lane's width is that above"
+    )
 
 
 def read_scenarios(path: Path) -> Dict[str, Scenario]:

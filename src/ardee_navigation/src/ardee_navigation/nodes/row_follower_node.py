@@ -143,9 +143,7 @@ def _parameters(settings: Settings) -> LaneParameters:
             raise GeneratorError(f"scenario: found {name!r}, {known_names(name, known)}")
         usual, of_camera = known[name].parameters, known[name].vision or {}
     if settings.follower == "vision":
-        usual = from_values(
-            VisionParameters, {"lane_width_m": usual.lane_width_m, **of_camera}
-        )
+        usual = from_values(VisionParameters, {"lane_width_m": usual.lane_width_m, **of_camera})
     return read_parameters(FilePath(settings.parameters), usual) if settings.parameters else usual
 
 
