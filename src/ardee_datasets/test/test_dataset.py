@@ -25,7 +25,7 @@ from ardee_datasets.generate_dataset import main
 from ardee_datasets.light import LightKeys
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
-from ardee_datasets.sample import LAYERS
+from ardee_datasets.sample import LAYERS, _picture_bytes
 from ardee_world.row_truth import Polyline, read_field
 
 
@@ -355,6 +355,18 @@ def test_pycocotools_reads_the_masks(made: Path) -> None:
         assert found
         for number, one in enumerate(found, 1):
             assert np.array_equal(coco.annToMask(one), own == number)
+
+
+def test_a_depth_file_holds_nothing_that_lay_in_memory_before() -> None:
+    depth = np.sqrt(np.random.default_rng(1).random((240, 320), dtype=np.float32))
+    for rows in range(0, 200, 10):
+        depth[:rows] = 0.0  # another length of the file, odd or even
+        made = set()
+        for dirt in (255, 85, 1):
+            dirty = [np.full(size, dirt, np.uint8) for size in (65536, 131072, 262144, 1 << 20)]
+            del dirty
+            made.add(_picture_bytes(depth, "tiff"))
+        assert len(made) == 1, rows
 
 
 def test_the_encoding_of_a_known_mask() -> None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """One sample: the layers of a picture and the description of what is in it."""
 
-import io
 import json
 import math
+import tempfile
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
@@ -130,13 +130,12 @@ def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> 
 
 
 def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
-    stream = io.BytesIO()
-    if ending == "tiff":
-        # LZW would pad its last byte with what happens to lie in memory.
-        Image.fromarray(array).save(stream, "TIFF", compression="tiff_adobe_deflate")
-    else:
-        Image.fromarray(array).save(stream, "PNG", compress_level=1)
-    return stream.getvalue()
+    # LZW would pad its last byte with what happens to lie in memory, and so would a file in memory its strips.
+    options = {"compression": "tiff_adobe_deflate"} if ending == "tiff" else {"compress_level": 1}
+    with tempfile.TemporaryFile() as stream:
+        Image.fromarray(array).save(stream, ending, **options)
+        stream.seek(0)
+        return stream.read()
 
 
 def _write_clouds(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,9 +24,9 @@ struct RenderOptions {
   /// Uses the approximate rays of PictureTracer, and fewer of them on even surfaces (render_frame
   /// only).
   bool approximate = false;
-  /// One for each pixel, row by row: whether it gets a ray; the others see nothing (render_frame
+  /// One for each pixel, row by row: 1 if it gets a ray; those of 0 see nothing (render_frame
   /// without `approximate` only). Null: all do.
-  const std::vector<bool>* wanted = nullptr;
+  const std::vector<std::uint8_t>* wanted = nullptr;
 };
 
 /// Inputs of the shading of a part of a picture.

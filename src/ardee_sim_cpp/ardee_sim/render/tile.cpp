@@ -2,6 +2,8 @@
 #include "ardee_sim/render/tile.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -62,14 +64,25 @@ class Tile {
  private:
   /// Begins with a ray through each pixel that is wanted.
   void enqueue_all(const Frame& frame) {
+    const int end = area_.left + area_.width;
     for (int row = area_.upper; row < area_.upper + area_.height; ++row) {
-      for (int column = area_.left; column < area_.left + area_.width; ++column) {
-        const std::size_t pixel = frame.index(column, row);
-        if (s_.options.wanted != nullptr && !(*s_.options.wanted)[pixel]) continue;
-        pixels_.push_back(pixel);
+      const std::size_t before = frame.index(0, row);
+      for (int column = next_wanted(before, area_.left); column < end;
+           column = next_wanted(before, column + 1)) {
+        pixels_.push_back(before + static_cast<std::size_t>(column));
         shader_.enqueue(column + 0.5, row + 0.5);
       }
     }
+  }
+
+  /// Returns the first column from `column` on that is wanted, or the tile's end; `before` pixels
+  /// lie before the row.
+  int next_wanted(std::size_t before, int column) const {
+    const int end = area_.left + area_.width;
+    if (s_.options.wanted == nullptr || column >= end) return column;
+    const std::uint8_t* row = s_.options.wanted->data() + before;
+    const void* found = std::memchr(row + column, 1, static_cast<std::size_t>(end - column));
+    return found ? static_cast<int>(static_cast<const std::uint8_t*>(found) - row) : end;
   }
 
   void write(Image& image) const {

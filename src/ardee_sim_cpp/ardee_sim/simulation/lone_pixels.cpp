@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "ardee_sim/raycast/ray_scene.h"
@@ -39,40 +40,52 @@ std::vector<Eigen::Vector3d> cut_in_front(const std::vector<Eigen::Vector3d>& co
   return found;
 }
 
-/// Marks the pixels that a part of the scenery with these corners may cover.
-void mark(const std::vector<Eigen::Vector3d>& corners, const render::Camera& camera,
-          std::vector<bool>& marked) {
-  const Eigen::Array2d size(camera.width, camera.height);
+/// Marks the pixels that a part of the scenery with these corners may cover in a camera that is at
+/// each of `moments` once.
+void mark(const std::vector<Eigen::Vector3d>& corners, const std::vector<render::Camera>& moments,
+          std::vector<std::uint8_t>& marked) {
+  const Eigen::Array2d size(moments.front().width, moments.front().height);
   Eigen::Array2d lower = size, upper = Eigen::Array2d::Zero();
-  const bool moves = camera.motion.is_seen();
-  const double end_s = camera.motion.exposure_time_s + camera.motion.readout_time_s;
-  for (const double time_s : {0.0, moves ? end_s : 0.0}) {
-    render::Camera then = camera;
-    then.X_WC = camera.pose_at(time_s);
-    for (const Eigen::Vector3d& point : cut_in_front(corners, then.X_WC)) {
-      if (const auto pixel = then.project(point)) {
+  for (const render::Camera& camera : moments) {
+    for (const Eigen::Vector3d& point : cut_in_front(corners, camera.X_WC)) {
+      if (const auto pixel = camera.project(point)) {
         lower = lower.min(pixel->array());
         upper = upper.max(pixel->array());
       }
     }
   }
-  const double margin_px = 0.5 + (moves ? kMovingMargin_px : kMargin_px);
+  const double margin_px = 0.5 + (moments.size() > 1 ? kMovingMargin_px : kMargin_px);
   const Eigen::Array2i from = (lower - margin_px).ceil().max(0.0).min(size).cast<int>();
   const Eigen::Array2i end = (upper + margin_px).floor().max(0.0).min(size).cast<int>();
   for (int y = from.y(); y < end.y(); ++y) {
-    const auto row = marked.begin() + y * camera.width;
-    std::fill(row + from.x(), row + std::max(from.x(), end.x()), true);
+    const auto row = marked.begin() + y * moments.front().width;
+    std::fill(row + from.x(), row + std::max(from.x(), end.x()), std::uint8_t{1});
   }
 }
 
-/// Returns for each pixel, row by row, whether the scenery may cover it.
-std::vector<bool> marked_pixels(const raycast::RayScene& rays, const render::Camera& camera) {
+/// Returns the camera as it is when the first row's exposure begins, and, if it moves, when the
+/// last one's ends.
+std::vector<render::Camera> ends_of(const render::Camera& camera) {
+  std::vector<render::Camera> moments{camera};
+  moments.front().X_WC = camera.pose_at(0.0);
+  if (camera.motion.is_seen()) {
+    const double end_s = camera.motion.exposure_time_s + camera.motion.readout_time_s;
+    moments.push_back(camera);
+    moments.back().X_WC = camera.pose_at(end_s);
+  }
+  return moments;
+}
+
+/// Returns for each pixel, row by row, 1 if the scenery may cover it, else 0.
+std::vector<std::uint8_t> marked_pixels(const raycast::RayScene& rays,
+                                        const render::Camera& camera) {
   const std::size_t count =
       static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-  std::vector<bool> marked(count, !camera.is_straight());
+  std::vector<std::uint8_t> marked(count, camera.is_straight() ? 0 : 1);
   if (camera.is_straight()) {
+    const std::vector<render::Camera> moments = ends_of(camera);
     rays.for_each_part(
-        [&](const std::vector<Eigen::Vector3d>& corners) { mark(corners, camera, marked); });
+        [&](const std::vector<Eigen::Vector3d>& corners) { mark(corners, moments, marked); });
   }
   return marked;
 }
@@ -92,7 +105,7 @@ std::size_t lone_pixels(const Placement& placement, const render::Camera& camera
   parts.ids = true;
   render::RenderOptions how;
   how.threads = options.threads;
-  const std::vector<bool> marked = marked_pixels(rays, camera);
+  const std::vector<std::uint8_t> marked = marked_pixels(rays, camera);
   how.wanted = &marked;
   const render::Frame frame = renderer.render_frame(camera, parts, how);
   return frame.entities.size() -
