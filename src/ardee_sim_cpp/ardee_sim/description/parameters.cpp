@@ -135,13 +135,9 @@ Eigen::Vector3d Parameters::vector3(const std::string& key, const Eigen::Vector3
 const Element* Parameters::block(const std::string& key) { return find(key); }
 
 void Parameters::finish(Log& log) const {
-  std::set<std::string> seen;
   for (const Element& child : element_.children) {
-    if (is_foreign(child.name)) continue;
-    if (known_.count(child.name) == 0) {
+    if (known_.count(child.name) == 0 && !is_foreign(child.name)) {
       log.warn(child.source, "unknown key, ignored");
-    } else if (!seen.insert(child.name).second) {
-      log.warn(child.source, "found a second <" + child.name + ">, the first counts");
     }
   }
 }

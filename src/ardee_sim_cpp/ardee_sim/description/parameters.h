@@ -36,7 +36,7 @@ class Parameters {
   const Element* block(const std::string& key);
   /// Marks keys as known without reading them (keys that Gazebo's plugins accept and ignore).
   void ignore(const std::set<std::string>& keys);
-  /// Warns of each key that was never asked for, and of each after the first of its name.
+  /// Warns once for each key that was never asked for.
   void finish(Log& log) const;
   const Source& source() const { return element_.source; }
   Error error(const std::string& key, const std::string& what) const;
