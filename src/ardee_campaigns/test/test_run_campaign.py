@@ -182,7 +182,7 @@ def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
             *dask[:2], "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", 0,
             "--no-dashboard", "--scheduler-file", place,
         )  # fmt: skip
-        until(place.is_file, "the scheduler")
+        until(lambda: place.is_file() and place.read_text().endswith("\n}"), "the scheduler")
         start(
             *dask[:2], "distributed.cli.dask_worker", "--scheduler-file", place,
             "--nthreads", 1, "--no-dashboard", "--local-directory", tmp_path,

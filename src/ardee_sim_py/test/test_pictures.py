@@ -2,6 +2,7 @@
 """Pictures of cameras in motion, their white balance, and what hides what, against closed forms."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -86,6 +87,45 @@ def test_lone_pixels_are_those_of_a_world_without_the_others() -> None:
     assert beside.lone_pixels([int(seen.max())], **eye) == [(seen > 0).sum()] and seen.any()
     with pytest.raises(ArdeeError, match="found instance 9, expected one of the scenery"):
         sim.lone_pixels([9], **eye)
+
+
+def mesh(path: Path, triangles: np.ndarray) -> Simulation:
+    """A world of triangles [n, 3, 3], each seen from one side."""
+    corners = "".join(f"v {x} {y} {z}\n" for x, y, z in triangles.reshape(-1, 3))
+    faces = "".join(f"f {i} {i + 1} {i + 2}\n" for i in range(1, 3 * len(triangles), 3))
+    path.write_text(corners + faces)
+    sim = Simulation(World.from_string(EMPTY))
+    shape = f"<geometry><mesh><uri>{path}</uri></mesh></geometry>"
+    link = f"<link name='l'><visual name='v'>{shape}</visual></link>"
+    model = f"<sdf version='1.6'><model name='m'>{link}</model></sdf>"
+    sim.spawn("mesh", model, xyz_m=(0, 0, 0), is_static=True, label=1)
+    return sim
+
+
+def test_lone_pixels_of_a_square_are_counted_from_its_front(tmp_path: Path) -> None:
+    """A square of 0.5 m at 2 m has sides of 50 pixels."""
+    square = np.array([[2, -0.25, -0.25], [2, 0.25, -0.25], [2, 0.25, 0.25], [2, -0.25, 0.25]])
+    eye = {"xyz_m": (0, 0, 0), **LENS}
+    counts = [
+        mesh(tmp_path / "square.obj", square[[corners]].reshape(-1, 3, 3)).lone_pixels([1], **eye)
+        for corners in ([0, 1, 2, 0, 2, 3], [0, 2, 1, 0, 3, 2])
+    ]
+    assert sorted(int(count) for (count,) in counts) == [0, 2500]
+
+
+@pytest.mark.parametrize("near_m", [0.0, 0.7])
+def test_lone_pixels_of_a_mesh_are_those_of_its_picture(tmp_path: Path, near_m: float) -> None:
+    rng = np.random.default_rng(4)
+    shreds = rng.uniform((-0.5, -1, -1), (2, 1, 1), (200, 1, 3)) + rng.normal(0, 0.1, (200, 3, 3))
+    plants = "<include><uri>model://corn_variant_8</uri><pose>1 0.3 -0.4 0 0 0</pose></include>"
+    worlds = [
+        mesh(tmp_path / "shreds.obj", shreds),
+        Simulation(World.from_string(EMPTY.replace("</world>", plants + "</world>"))),
+    ]
+    eye = {"xyz_m": (0, 0, 0), "near_m": near_m, **LENS}
+    for sim in worlds:
+        seen = int((sim.instance_image(**eye) > 0).sum())
+        assert seen > 2000 and sim.lone_pixels([1], **eye).tolist() == [seen]
 
 
 @pytest.mark.parametrize(

@@ -1,17 +1,23 @@
 # SPDX-License-Identifier: MIT
 """COCO's compressed run-length encoding of masks."""
 
+from typing import Optional
+
 import numpy as np
 
 
-def encode(mask: np.ndarray) -> str:
-    """Returns the counts of a mask [h, w] as pycocotools does: runs in column order, the first of zeros."""
-    flat = np.asarray(mask, dtype=bool).ravel(order="F")
-    edges = np.flatnonzero(np.diff(flat)) + 1
-    ends = np.concatenate((edges, [flat.size]))
-    runs = np.diff(ends, prepend=0).tolist()
-    if flat.size and flat[0]:
-        runs.insert(0, 0)
+def encode(mask: np.ndarray, left: int = 0, width: Optional[int] = None) -> str:
+    """Returns the counts of a mask as pycocotools does: runs in column order, the first of zeros.
+
+    `mask` [h, w] holds the columns from `left` on of a picture so wide; all others are empty.
+    """
+    height, columns = mask.shape
+    flat = np.pad(np.asarray(mask, dtype=bool).ravel(order="F"), 1)
+    changes = np.flatnonzero(flat[1:] != flat[:-1]) + left * height
+    size = height * (columns if width is None else width)
+    runs = np.diff(changes, prepend=0, append=size).tolist()
+    if len(runs) > 1 and not runs[-1]:
+        runs.pop()
     text = []
     for i, run in enumerate(runs):
         # each run from the fourth on is given by its difference to the one of its own value before

@@ -10,6 +10,7 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 from PIL import Image
+from scipy import ndimage
 
 from ardee_common.output import write_file
 from ardee_datasets import rle
@@ -72,19 +73,24 @@ def organs(own: np.ndarray, visuals: np.ndarray, items: Sequence[Item]) -> np.nd
     return table[own, column.reshape(own.shape)]
 
 
-def annotation(mask: np.ndarray, item: Item, lone_px: int) -> Dict[str, Any]:
-    """Returns the COCO annotation of a mask, without its ids; `lone_px` counts its pixels if nothing hid it."""
-    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    x, y = int(columns[0]), int(rows[0])
-    area = int(mask.sum())
+def annotation(
+    mask: np.ndarray, box: Tuple[slice, slice], item: Item, lone_px: int
+) -> Dict[str, Any]:
+    """Returns the COCO annotation of a mask with these rows and columns, without its ids.
+
+    `lone_px` counts its pixels if nothing hid it.
+    """
+    rows, columns = box
+    area = int(np.count_nonzero(mask[box]))
     whole = max(lone_px, area)  # floats may decide on a pixel of the edge in another way
+    counts = rle.encode(mask[:, columns], columns.start, mask.shape[1])
     return {
         "category_id": item.label,
-        "segmentation": {"size": list(mask.shape), "counts": rle.encode(mask)},
+        "segmentation": {"size": list(mask.shape), "counts": counts},
         "area": area,
         "visible_px": area,
         "occluded": round(1.0 - area / whole, 4),
-        "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
+        "bbox": [columns.start, rows.start, columns.stop - columns.start, rows.stop - rows.start],
         "iscrowd": 0,
         "truth_id": item.truth_id,
         "kind": item.truth_id.rpartition("_")[0],
@@ -127,6 +133,18 @@ def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> 
     (apparent,) = view.apparent(item.foot_m[None])
     foot = foot_keypoint(apparent, view.K, view.X_WC, mask, depth_m)
     return {"keypoints": foot, "num_keypoints": int(foot[2] > 0)}
+
+
+def annotations(
+    own: np.ndarray, items: Sequence[Item], lone_px: np.ndarray, depth_m: np.ndarray, view: View
+) -> List[Dict[str, Any]]:
+    """Returns the annotations of the items, whose masks have the numbers 1..n in `own`."""
+    made = []
+    boxes = ndimage.find_objects(own)
+    for n, (item, box, alone) in enumerate(zip(items, boxes, lone_px.tolist()), 1):
+        mask = own == n
+        made.append({**annotation(mask, box, item, alone), **keypoints(mask, item, depth_m, view)})
+    return made
 
 
 def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
@@ -217,10 +235,7 @@ def take(
         "lens": lens.description(),
         "clouds": _write_clouds(split, shot, pose, scenery, lidars),
         "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},
-        "annotations": [
-            {**annotation(own == n, item, alone), **keypoints(own == n, item, depth, view)}
-            for n, (item, alone) in enumerate(zip(items, lone_px.tolist()), 1)
-        ],
+        "annotations": annotations(own, items, lone_px, depth, view),
         **view.description(scenery.rows),
     }
     write_file(split / "samples" / f"{shot.id}.json", json_bytes(sample))

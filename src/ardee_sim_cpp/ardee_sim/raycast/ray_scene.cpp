@@ -176,25 +176,30 @@ std::vector<Bounds> RayScene::scenery_boxes() const {
   return boxes;
 }
 
-void RayScene::for_each_part(
-    const std::function<void(const std::vector<Eigen::Vector3d>&)>& act) const {
-  std::vector<Eigen::Vector3d> corners;
+void RayScene::for_each_part(const std::function<void(const SceneryPart&)>& act) const {
+  SceneryPart triangle_part, box;
+  triangle_part.corners_W.resize(3);
+  box.corners_W.resize(8);
   for (const TraceableInstance* placed : impl_->scene.scenery.fixed()->places().places()) {
     const Traceable& body = *placed->body;
-    const auto add = [&](const Eigen::Vector3d& p_B) {
-      corners.push_back(placed->p + placed->q * (placed->scale * p_B));
+    const auto to_world = [&](const Eigen::Vector3d& p_B) -> Eigen::Vector3d {
+      return placed->p + placed->q * (placed->scale * p_B);
     };
     for (const TraceableTriangle& triangle : body.triangles) {
-      corners.clear();
-      for (const std::uint32_t vertex : triangle.vertices)
-        add(body.vertices[vertex].cast<double>());
-      act(corners);
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangle_part.corners_W[k] = to_world(body.vertices[triangle.vertices[k]].cast<double>());
+      }
+      const TraceableSurface& surface = body.surfaces[triangle.surface];
+      triangle_part.is_opaque = surface.mask == nullptr;
+      triangle_part.is_two_sided = surface.two_sided;
+      act(triangle_part);
     }
     for (std::size_t i = 0; i < body.primitives.size(); ++i) {
       if (body.primitives[i].kind == Primitive::Kind::kBlock) continue;
-      corners.clear();
-      for (unsigned corner = 0; corner < 8; ++corner) add(body.primitive_bounds[i].corner(corner));
-      act(corners);
+      for (unsigned k = 0; k < 8; ++k) {
+        box.corners_W[k] = to_world(body.primitive_bounds[i].corner(k));
+      }
+      act(box);
     }
   }
 }

@@ -19,6 +19,13 @@
 
 namespace ardee::raycast {
 
+/// A triangle of the scenery, or a box about another piece of it.
+struct SceneryPart {
+  std::vector<Eigen::Vector3d> corners_W;
+  bool is_opaque = false;  // a triangle without holes
+  bool is_two_sided = true;
+};
+
 /// The world as rays see it, on Embree. The hits do not depend on threads, local scenes or timing.
 class RayScene {
  public:
@@ -62,9 +69,8 @@ class RayScene {
 
   /// Boxes about each place of the scenery, without infinite planes; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
-  /// Calls `act(corners_W)` with the corners of each triangle of the scenery, and of a box about
-  /// each other piece, without infinite planes; valid after prepare().
-  void for_each_part(const std::function<void(const std::vector<Eigen::Vector3d>&)>& act) const;
+  /// Calls `act` with each part of the scenery, without infinite planes; valid after prepare().
+  void for_each_part(const std::function<void(const SceneryPart&)>& act) const;
 
   /// Numbers for benchmarks: bytes of Embree (for all scenes of this process) and of local scenes,
   /// triangles of local scenes, and how many of them were taken into use so far.
