@@ -4,14 +4,12 @@ import itertools
 import math
 from datetime import date
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, Dict
 
 import pytest
 import small_campaign
 from PIL import Image
 
-from ardee_campaigns import identity
 from ardee_campaigns.campaign_file import CampaignKeys, ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
@@ -241,21 +239,6 @@ def test_a_run_is_known_by_the_files_and_models_of_its_field(tmp_path: Path) -> 
         found.append([planner.job(cell, 0, tmp_path).run_id for cell in planner.cells[::2]])
     assert len({own for own, _ in found}) == 3 and found[2] == found[3]
     assert len({other for _, other in found}) == 1
-
-
-def test_a_run_is_known_by_the_simulators_build_and_code(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    core, sower = tmp_path / "_core.so", tmp_path / "sower" / "trial.py"
-    sower.parent.mkdir()
-    monkeypatch.setattr(identity, "find_spec", lambda name: SimpleNamespace(origin=str(core)))
-    monkeypatch.setattr(identity.trial, "__file__", str(sower))
-    found = []
-    for build, code in ((b"1", "x = 1"), (b"2", "x = 1"), (b"2", "x = 2"), (b"1", "x = 1")):
-        core.write_bytes(build)
-        sower.write_text(code)
-        found.append(identity.engine_digest.__wrapped__())
-    assert len(set(found)) == 3 and found[0] == found[3]
 
 
 def test_the_half_width_of_an_interval_is_students() -> None:

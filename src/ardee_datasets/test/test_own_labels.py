@@ -11,7 +11,7 @@ import yaml
 from small_sets import generated, pixels, samples
 
 from ardee_common.errors import GeneratorError
-from ardee_datasets import show_dataset
+from ardee_datasets import inputs, show_dataset
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
 from ardee_models.lookup import find_model, search_path
@@ -43,7 +43,7 @@ def label_soybean(folder: Path, label: int) -> None:
 
 
 def test_a_named_label_is_a_category_of_a_set_with_its_model(
-    tmp_path: Path, capsys: pytest.CaptureFixture
+    tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     made = generated(tmp_path, f"{RECIPE}labels: {{soybean: {LABEL}}}\n")
     assert json.loads((made / "categories.json").read_text())[-1]["name"] == "soybean"
@@ -66,6 +66,10 @@ def test_a_named_label_is_a_category_of_a_set_with_its_model(
     weeds = [one for one in drawn if one["kind"] == "weed"]
     assert {one["category_id"] for one in weeds} == {LABEL}
     assert all((one["keypoints"], one["num_keypoints"]) == ([0, 0, 0], 0) for one in weeds)
+    with monkeypatch.context() as other, pytest.raises(SystemExit):
+        other.setattr(inputs, "engine_digest", lambda: "of another build")
+        main([str(tmp_path / "recipe.yaml"), "--output", str(made)])
+    assert "of another version of the program than there is now" in capsys.readouterr().err
     (tmp_path / "models" / "soybean" / "notes.txt").touch()
     with pytest.raises(SystemExit):
         main([str(tmp_path / "recipe.yaml"), "--output", str(made)])

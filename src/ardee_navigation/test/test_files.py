@@ -122,6 +122,17 @@ def test_bad_scenarios_are_named_with_their_line(tmp_path: Path, text: str, mess
         read_scenarios(path)
 
 
+def test_a_bad_key_of_a_scenarios_camera_is_named_with_its_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "s.yaml"
+    path.write_text("rice:\n  vision:\n    end_confidense: 0.2\n")
+    monkeypatch.setattr(row_follower_node, "known_scenarios", lambda: read_scenarios(path))
+    message = r"s.yaml:3: unknown key 'end_confidense', .*did you mean 'end_confidence'"
+    with pytest.raises(GeneratorError, match=message):
+        row_follower_node._parameters(Settings(follower="vision", scenario="rice"))
+
+
 @pytest.mark.parametrize(
     "values, message",
     [

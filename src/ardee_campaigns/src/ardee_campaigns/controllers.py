@@ -16,9 +16,10 @@ from typing import Any, Callable, Iterable, Mapping, Tuple
 import ardee_sim
 
 from ardee_campaigns.campaign_file import ControllerKeys
-from ardee_campaigns.program import files_of, python_files
+from ardee_campaigns.program import files_of
 from ardee_campaigns.robot import Robot
 from ardee_campaigns.udp import UdpController
+from ardee_common.digests import python_files
 from ardee_common.errors import GeneratorError
 
 Command = Tuple[float, float]

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Tuple
 
 import numpy as np
+from ardee_sim.identity import engine_digest, engine_version
 
 from ardee_campaigns import controllers, measures, robot, tables, worlds
 from ardee_campaigns.campaign_file import Campaign, CampaignKeys, FactorKeys, Value
-from ardee_campaigns.identity import engine_digest, engine_version
 from ardee_common.config import Mapping as Placed
 from ardee_common.config import read_yaml_lines
 from ardee_common.digests import Digests

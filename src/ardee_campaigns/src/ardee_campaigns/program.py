@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Command lines of controllers that are programs: parameters put into their words, their end with a worker; sources."""
-import contextlib
 import ctypes
 import shutil
 import signal
-from modulefinder import ModuleFinder
 from pathlib import Path
-from typing import Any, Iterable, List, Mapping, Optional, Sequence
+from typing import Any, List, Mapping, Optional, Sequence
 
+from ardee_common.digests import python_files, shown
 from ardee_common.errors import GeneratorError
 
 _PR_SET_PDEATHSIG = 1
@@ -71,33 +70,10 @@ def files_of(command: Sequence[str]) -> List[Path]:
 def _loaded_by(file: Path) -> List[Path]:
     for folder in file.resolve().parents:
         if (folder / "package.xml").is_file():
-            return _shown(folder, (each for pattern in _SOURCES for each in folder.glob(pattern)))
+            return shown(folder, (each for pattern in _SOURCES for each in folder.glob(pattern)))
     with file.open("rb") as lines:
         is_python = file.suffix == ".py" or b"python" in lines.readline(100)
     return python_files(file) if is_python else []
-
-
-def python_files(file: Path) -> List[Path]:
-    """Returns the Python files of a file's package, or itself and what it imports from its folder."""
-    folder = file.parent
-    if not (folder / "__init__.py").is_file():
-        finder = ModuleFinder([str(folder)])  # which reads files and runs none
-        with contextlib.suppress(SyntaxError, ValueError):  # of a file that Python cannot read
-            finder.run_script(str(file))
-        imported = [Path(each.__file__) for each in finder.modules.values() if each.__file__]
-        return _shown(folder, [file, *imported])
-    while (folder.parent / "__init__.py").is_file():
-        folder = folder.parent
-    return _shown(folder, folder.glob("**/*.py"))
-
-
-def _shown(folder: Path, files: Iterable[Path]) -> List[Path]:
-    """Returns the files, each once and in order, without those that are hidden or lead nowhere."""
-    return sorted(
-        file
-        for file in set(files)
-        if file.is_file() and not any(part[0] == "." for part in file.relative_to(folder).parts)
-    )
 
 
 def _resource(package: str, name: str) -> Optional[str]:

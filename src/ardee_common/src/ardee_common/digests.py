@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Hashes of files and folders, which tell whether inputs have changed."""
+import contextlib
 import hashlib
+from modulefinder import ModuleFinder
 from pathlib import Path
 from typing import Dict, Iterable, List
 
@@ -26,3 +28,26 @@ class Digests:
                     made.update(hashlib.sha256(file.read_bytes()).digest())
             self._known[path] = made.digest()
         return self._known[path]
+
+
+def python_files(file: Path) -> List[Path]:
+    """Returns the Python files of a file's package, or itself and what it imports from its folder."""
+    folder = file.parent
+    if not (folder / "__init__.py").is_file():
+        finder = ModuleFinder([str(folder)])  # which reads files and runs none
+        with contextlib.suppress(SyntaxError, ValueError):  # of a file that Python cannot read
+            finder.run_script(str(file))
+        imported = [Path(each.__file__) for each in finder.modules.values() if each.__file__]
+        return shown(folder, [file, *imported])
+    while (folder.parent / "__init__.py").is_file():
+        folder = folder.parent
+    return shown(folder, folder.glob("**/*.py"))
+
+
+def shown(folder: Path, files: Iterable[Path]) -> List[Path]:
+    """Returns the files, each once and in order, without those that are hidden or lead nowhere."""
+    return sorted(
+        file
+        for file in set(files)
+        if file.is_file() and not any(part[0] == "." for part in file.relative_to(folder).parts)
+    )

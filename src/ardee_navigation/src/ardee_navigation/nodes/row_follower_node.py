@@ -21,7 +21,7 @@ from nav_msgs.msg import Odometry, Path
 from std_msgs.msg import String
 
 from ardee_common import ros_node
-from ardee_common.config import from_values
+from ardee_common.config import Mapping, build
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option, ros_name
 from ardee_navigation.evaluation.scenario_files import read_parameters
@@ -136,14 +136,15 @@ class Node:
 
 def _parameters(settings: Settings) -> LaneParameters:
     """Returns the technique's parameters of the file, over those of the scenario, over the defaults."""
-    usual, of_camera, name = Parameters(), {}, settings.scenario
+    usual, of_camera, name = Parameters(), Mapping("vision"), settings.scenario
     if name:
         known = known_scenarios()
         if name not in known:
             raise GeneratorError(f"scenario: found {name!r}, {known_names(name, known)}")
-        usual, of_camera = known[name].parameters, known[name].vision or {}
+        usual, of_camera = known[name].parameters, known[name].vision or of_camera
     if settings.follower == "vision":
-        usual = from_values(VisionParameters, {"lane_width_m": usual.lane_width_m, **of_camera})
+        of_camera.setdefault("lane_width_m", usual.lane_width_m)
+        usual = build(VisionParameters, of_camera)
     return read_parameters(FilePath(settings.parameters), usual) if settings.parameters else usual
 
 

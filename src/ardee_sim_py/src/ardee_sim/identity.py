@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Hash of the simulator as it is built, which is part of what a run is known by."""
+"""Hash of the simulator as it is built, which is part of what runs and data sets are known by."""
 import functools
 from importlib.util import find_spec
 from pathlib import Path
@@ -7,8 +7,7 @@ from xml.etree import ElementTree
 
 from ardee_sim.packages import find_package
 
-from ardee_campaigns.program import python_files
-from ardee_common.digests import Digests
+from ardee_common.digests import Digests, python_files
 from ardee_models import lookup
 from ardee_world import trial
 
