@@ -17,8 +17,8 @@ struct Material {
   Color specular{0.0f, 0.0f, 0.0f, 1.0f};
   Color emissive{0.0f, 0.0f, 0.0f, 1.0f};
   std::string texture_path;  // image file; empty: none
-  bool two_sided =
-      false;  // OGRE cull_hardware none: seen from behind as well (thesis Listing A.14)
+  /// OGRE's cull_hardware none: seen from behind as well (thesis Listing A.14).
+  bool two_sided = false;
   float alpha_rejection = -1.0f;  // texels whose opacity is not above this are holes; < 0: none
 };
 

@@ -72,8 +72,13 @@ const Element* Parameters::find(const std::string& key) {
   return element_.child(key);
 }
 
+const Element* Parameters::find_value(const std::string& key) {
+  with_one_value_.insert(key);
+  return find(key);
+}
+
 const Element* Parameters::find_filled(const std::string& key) {
-  const Element* child = find(key);
+  const Element* child = find_value(key);
   return child && !child->text.empty() ? child : nullptr;
 }
 
@@ -81,13 +86,13 @@ bool Parameters::has(const std::string& key) { return find(key) != nullptr; }
 
 std::string Parameters::text(const std::string& key, const std::string& fallback) {
   note({key, "text", fallback});
-  const Element* child = find(key);
+  const Element* child = find_value(key);
   return child ? child->text : fallback;
 }
 
 std::string Parameters::required_text(const std::string& key) {
   note({key, "text", "", true});
-  const Element* child = find(key);
+  const Element* child = find_value(key);
   if (!child || child->text.empty()) {
     throw Error(element_.source, "found no <" + key + ">, expected one");
   }
@@ -138,6 +143,9 @@ void Parameters::finish(Log& log) const {
   for (const Element& child : element_.children) {
     if (known_.count(child.name) == 0 && !is_foreign(child.name)) {
       log.warn(child.source, "unknown key, ignored");
+    }
+    if (with_one_value_.count(child.name) != 0 && element_.child(child.name) != &child) {
+      log.warn(child.source, "found it a second time, expected it once: the first counts");
     }
   }
 }

@@ -16,7 +16,7 @@ namespace ardee {
 /// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers
 /// which keys were asked for, so that finish() can name the keys that were not read. A value that
 /// does not parse or lies outside its bounds is an Error with file, line and element; an empty
-/// value is its default; an unknown key is a warning.
+/// value is its default; an unknown key is a warning, as is a key with one value that comes again.
 class Parameters {
  public:
   explicit Parameters(const Element& element) : element_(element) {}
@@ -36,19 +36,22 @@ class Parameters {
   const Element* block(const std::string& key);
   /// Marks keys as known without reading them (keys that Gazebo's plugins accept and ignore).
   void ignore(const std::set<std::string>& keys);
-  /// Warns once for each key that was never asked for.
+  /// Warns once for each key that was never asked for or whose value was read from another.
   void finish(Log& log) const;
   const Source& source() const { return element_.source; }
   Error error(const std::string& key, const std::string& what) const;
 
  private:
   const Element* find(const std::string& key);
+  /// Finds the element of a key that has one value.
+  const Element* find_value(const std::string& key);
   void note(const AskedKey& key) const;
   /// No value if the text is empty.
   const Element* find_filled(const std::string& key);
 
   const Element& element_;
   std::set<std::string> known_;
+  std::set<std::string> with_one_value_;
 };
 
 /// Parses a number: the value of a decimal number, with or without the suffix f of a float, of

@@ -96,6 +96,19 @@ TEST(Parameters, AMisspeltKeyIsReportedOnce) {
   EXPECT_EQ(warnings[0], "robot.urdf:12: <updateRat>: unknown key, ignored");
 }
 
+TEST(Parameters, AValueThatComesAgainIsReportedButNotAList) {
+  const Element element = block({{"rate", "1"}, {"rate", "5"}, {"plot", "2"}, {"plot", "3"}});
+  std::vector<std::string> warnings;
+  Log log([&](LogLevel, const std::string& text) { warnings.push_back(text); });
+  Parameters parameters(element);
+  EXPECT_EQ(parameters.number("rate", 0.0), 1.0);
+  EXPECT_NE(parameters.block("plot"), nullptr);
+  parameters.finish(log);
+  EXPECT_EQ(warnings, std::vector<std::string>{
+                          "robot.urdf:12: <rate>: found it a second time, expected it once: the "
+                          "first counts"});
+}
+
 TEST(Parameters, TakesDownWhichKeysAreAskedFor) {
   Element element;
   element.key_log = std::make_shared<KeyLog>();

@@ -60,13 +60,16 @@ TEST(NestedPlugins, FindTheirOwnJointsInAList) {
 
 /// Returns a base with an arm fixed 1 m ahead and a grip on the arm, both models within it.
 std::string robot_with_parts() {
-  return "<sdf version='1.9'><model name='r'><link name='base'/><model name='arm'><pose>1 0 0.5 0 "
-         "0 "
-         "0</pose><link name='hand'><pose>0 0 0.2 0 0 0</pose></link><model name='grip'><pose>1 0 "
-         "0 "
-         "0 0 0</pose><link name='finger'/></model><joint name='wrist' type='fixed'><parent>hand"
-         "</parent><child>grip::finger</child></joint></model><joint name='shoulder' type='fixed'>"
-         "<parent>base</parent><child>arm::hand</child></joint></model></sdf>";
+  return R"(<sdf version='1.9'><model name='r'>
+  <link name='base'/>
+  <model name='arm'>
+    <pose>1 0 0.5 0 0 0</pose>
+    <link name='hand'><pose>0 0 0.2 0 0 0</pose></link>
+    <model name='grip'><pose>1 0 0 0 0 0</pose><link name='finger'/></model>
+    <joint name='wrist' type='fixed'><parent>hand</parent><child>grip::finger</child></joint>
+  </model>
+  <joint name='shoulder' type='fixed'><parent>base</parent><child>arm::hand</child></joint>
+</model></sdf>)";
 }
 
 TEST(NestedModels, HavePosesAndVelocitiesOfTheirOwn) {
