@@ -291,7 +291,8 @@ def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Pope
 def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, made: Path) -> None:
     folder = recipe.parent / "ended"
     folder.mkdir()
-    (folder / "dataset.yaml").write_text("of a recipe that was refused")
+    for name in ("dataset.yaml", "inputs.json"):
+        (folder / name).write_text("of a recipe that was refused")
     for number, when in (
         (signal.SIGINT, "scratch/ardee_workers_*/*"),  # while workers start
         (signal.SIGKILL, "scratch/ardee_workers_*/ardee_field_*/*"),
@@ -307,6 +308,34 @@ def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, m
     assert not (folder / "manifest.json").exists()
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
+
+
+def test_what_was_changed_in_a_finished_set_is_made_again(
+    recipe: Path, made: Path, capsys: pytest.CaptureFixture
+) -> None:
+    folder = recipe.parent / "changed"
+    shutil.copytree(made, folder)
+    (folder / "train/labels/corn_0000_000000.png").write_bytes(b"")
+    (folder / "train/rgb/corn_0001_000001.png").unlink()
+    (folder / "test/samples/late_0000_000000.json").write_bytes(b"")
+    (folder / "test/poses.csv").unlink()
+    assert main([str(recipe), "--output", str(folder), "--workers", "1"]) == 0
+    said = capsys.readouterr().err
+    assert "train/labels/corn_0000_000000.png: missing or changed, corn_0000 is made again" in said
+    assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
+    picture = Path("train", "corn_0001_000001.png")
+    pair = [folder / "yolo/images" / picture, folder / "train/rgb" / picture.name]
+    assert len({path.read_bytes() for path in pair}) == 1
+
+
+def test_a_folder_with_a_recipe_of_its_own_is_left_alone(
+    recipe: Path, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    (tmp_path / "dataset.yaml").write_text("mine")
+    with pytest.raises(SystemExit):
+        main([str(recipe), "--output", str(tmp_path)])
+    assert "and no inputs.json, expected an empty folder" in capsys.readouterr().err
+    assert (tmp_path / "dataset.yaml").read_text() == "mine"
 
 
 def workers_of(parent: int) -> list:

@@ -72,6 +72,10 @@ RECIPE = (
         ("times: noon", "times: found 'noon', expected first and last moment, in quotes"),
         (f"elevation_deg: [1, 2], times: {list(DAY)}", "elevation_deg: found it with times"),
         (f"place_deg: {list(URBANA_DEG)}, times: {list(NIGHT)}", "times: found night alone"),
+        (
+            f"place_deg: {list(URBANA_DEG)}, times: ['0001-01-01T00:00+14:00', '0001-01-02T00:00+14:00']",
+            "times: found 0001-01-01 .*expected years 2 to 9998",
+        ),
     ],
 )
 def test_a_wrong_light_of_a_recipe_is_refused(

@@ -43,6 +43,8 @@ def read(folder: Path, old: str, new: str) -> object:
         ),
         ("_variant_7", "_varient_7", "recipe.yaml:12: models: model 'corn_varient_7': not found"),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
+        ("row_length_m: 3.0,", "row_length_m: 18.0,", "corn: options: .*beside the terrain .x -15 to 15 m"),
+        ("row_length_m: 3.0,", "row_length_m: 3.0, gaps: 20,", "corn: options: gaps: found 20 of"),
         ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
     ],
 )
@@ -88,7 +90,7 @@ def test_options_that_make_no_field_are_refused(tmp_path: Path, options: str, me
 
 @pytest.mark.parametrize(
     "options",
-    ["rows_per_plot: 1, plots_x: 2", "row_spacing_m: 3.0, plots_x: 2", "terrain: ground_plane"],
+    ["rows_per_plot: 1, plots_x: 2", "row_spacing_m: 3.0, plots_x: 2, terrain: ground_plane"],
 )
 def test_plots_side_by_side_have_a_lane(tmp_path: Path, options: str) -> None:
     read(tmp_path, "_variant_7],", f"_variant_7], {options},")
@@ -116,6 +118,12 @@ ROBOT = "robots: {%s: {robot: tsv3_default}}\nlidars:"
         ("  top:", "  field:", "16: lidars: found 'field', the name of the field too; expected"),
         ("lidars:", ROBOT % "field", "15: robots: found 'field', the name of the field too"),
         ("lidars:", ROBOT % "top", "15: robots: found 'top', the name of a lidar too"),
+        (
+            "lidars:",
+            "  r_camera_front_sensor: {sensor: realsense_d435}\n"
+            "robots: {r: {robot: tsv3_default}}\nlidars:",
+            "16: robots: found another camera r_camera_front_sensor than camera camera_front_sensor of",
+        ),
         ("lidars:", ROBOT % "front", "15: robots: found 'front', the name of a camera too"),
     ],
 )

@@ -83,9 +83,10 @@ def test_a_foot_is_visible_only_where_its_own_stalk_shows() -> None:
     assert foot_keypoint(foot * 0.5, K, camera(0.0), mask, depth_m) == [0, 0, 0]
 
 
-def test_points_appear_where_a_rolling_shutter_sees_them() -> None:
+@pytest.mark.parametrize("fast", [1.0, 4.0])
+def test_points_appear_where_a_rolling_shutter_sees_them(fast: float) -> None:
     """Each apparent point projects to the pixel of the true one at its row's time; the middle row's are the true."""
-    motion = Motion(np.array([0.6, 0.9, 0.0]), np.array([0.1, -0.3, 0.4]), 0.02, 0.08)
+    motion = Motion(np.array([0.6, 0.9, 0.0]) * fast, np.array([0.1, -0.3, 0.4]), 0.02, 0.08)
     X_WC, points = camera(10.0), np.random.default_rng(1).uniform((1, -1, 0), (4, 1, 1), (50, 3))
     pixels, _ = project(motion.apparent(points, K, X_WC, SIZE), K, X_WC)
     body = CameraPose(np.array([0.0, 0.0, HEIGHT_M]), Rotation.from_euler("Z", 10.0, degrees=True))
@@ -100,7 +101,7 @@ def test_points_appear_where_a_rolling_shutter_sees_them() -> None:
         away_px.append(np.hypot(*(project(point[None], K, X_WC)[0][0] - (u, v))))
     assert len(away_px) > 20 and max(away_px) > 1.0
     begun_m, begun = motion.begin(body.xyz_m, body.rotation)
-    assert np.allclose(begun_m, (-0.03, -0.045, HEIGHT_M))
+    assert np.allclose(begun_m, (-0.03 * fast, -0.045 * fast, HEIGHT_M))
     assert np.allclose(
         (begun.inv() * body.rotation).magnitude(), 0.05 * np.linalg.norm(motion.w_rad_s)
     )

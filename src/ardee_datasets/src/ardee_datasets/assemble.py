@@ -7,7 +7,7 @@ import io
 import json
 import os
 from pathlib import Path
-from typing import Any, Collection, Dict, List, Optional, Sequence
+from typing import Any, Collection, Dict, List, Optional, Sequence, Set
 
 import yaml
 
@@ -51,7 +51,7 @@ Files of a split, by the id of a sample, SCENE_FRAME:
   lidar's frame X_WL of samples/*.json, which has the instances too; uint32, category id in the low 16 bits, instance
   above.
 - annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv; occluded is
-  the share of its pixels that others hide; row and place are those of truth.csv. The keypoint
+  the share of its pixels that others hide, or the ground; row and place are those of truth.csv. The keypoint
   of a plant is its stalk's foot on the ground: 2 if it is in sight, 1 if hidden, 0 if outside of the picture.
 - poses.csv: positions of the cameras.
 
@@ -174,18 +174,31 @@ def _write_yolo(
         images.mkdir(parents=True, exist_ok=True)
         for sample in samples:
             name = f"{sample['id']}.png"
-            if not (images / name).exists():
-                _link(folder / split / "rgb" / name, images / name)
+            _link(folder / split / "rgb" / name, images / name)
             text = yolo_text(sample, known)
             write_file(folder / "yolo" / "labels" / split / f"{sample['id']}.txt", text.encode())
     write_file(folder / "yolo" / "data.yaml", yaml.safe_dump(data, sort_keys=False).encode())
 
 
 def _link(source: Path, target: Path) -> None:
+    if target.exists() and target.samefile(source):
+        return
+    target.unlink(missing_ok=True)
     try:
         os.link(source, target)
     except OSError:  # a file system without links
         write_file(target, source.read_bytes())
+
+
+def damaged(folder: Path) -> Set[str]:
+    """Returns the files of a finished data set that are not as its manifest has them."""
+    file = folder / "manifest.json"
+    try:
+        before = json.loads(file.read_bytes()) if file.is_file() else {}
+    except ValueError:
+        return set()  # it is written anew
+    now = _manifest(folder)
+    return {name for name, digest in before.items() if now.get(name) != digest}
 
 
 def assemble(folder: Path, recipe: Recipe) -> None:

@@ -2,6 +2,7 @@
 """Options of a recipe's fields, checked before any field is sown."""
 
 import dataclasses
+import functools
 from pathlib import Path
 from typing import Any, Dict, Optional, Tuple
 
@@ -13,15 +14,18 @@ from ardee_common.options import kind_of
 from ardee_datasets.categories import CATEGORIES, OWN_LABELS
 from ardee_datasets.seeds import stream
 from ardee_models.lookup import crop_model, find_model, search_path
-from ardee_models.terrain.ground import is_ground
+from ardee_models.terrain.ground import ground_model, is_ground
+from ardee_models.terrain.height_map import Ground
 from ardee_world.clutter import KINDS
 from ardee_world.curves import Line
 from ardee_world.field_config import FieldConfig
+from ardee_world.field_layout import check_plan
 from ardee_world.plots import row_positions
 from ardee_world.request import all_fields, configure
 
 WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of plots
 FIELD = "field"  # name of the field's model in the simulation
+TERRAIN = "heightmap_ground"  # unless the options name another
 _OF_THE_RECIPE = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
 IMAGES = tuple(f"{kind}_image" for kind in KINDS)  # paths relative to the recipe
 POOLS = ("models", *(f"{kind}_models" for kind in KINDS))
@@ -126,13 +130,23 @@ def drawn_options(options: Values, ranges: Ranges, seed: int) -> Values:
     return made
 
 
-def check_field(values: Values) -> None:
-    """Raises GeneratorError for options of a field that do not fit together, or leave no lane."""
+@functools.lru_cache(maxsize=None)
+def _ground(terrain: str) -> Ground:
+    folders = search_path([Path(folder) for folder in packages.model_folders()])
+    return ground_model(terrain, folders)
+
+
+def check_field(values: Values, seed: int) -> None:
+    """Raises GeneratorError for a field whose options do not fit together or its terrain, or that has no lane."""
     _, config = configure({**values, "name": FIELD})
     across = row_positions(config.plots)
     line = Line(config.shape, config.plots.length_m())
     line.check_offsets(float(across.min()), float(across.max()))
     _check_lanes(config)
+    try:
+        check_plan(config, seed, _ground(values.get("terrain") or TERRAIN))
+    except GeneratorError as error:
+        raise GeneratorError(f"options: {error}") from None
 
 
 def _check_lanes(config: FieldConfig) -> None:

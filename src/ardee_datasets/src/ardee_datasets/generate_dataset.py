@@ -5,22 +5,21 @@ import argparse
 import json
 import os
 import socket
-import tempfile
 from pathlib import Path
-from typing import Iterator, Optional, Sequence, Tuple
+from typing import Dict, Iterator, List, Optional, Sequence, Tuple
 
 from ardee_sim import ArdeeError
 
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError, WorkersError
-from ardee_common.output import FULL, locked, output_folder, write_file
+from ardee_common.output import FULL, locked, output_folder, scratch_folder, write_file
 from ardee_common.process import end_if_told
-from ardee_datasets.assemble import assemble, yolo_lack
+from ardee_datasets.assemble import assemble, damaged, yolo_lack
 from ardee_datasets.camera import CameraKeys
 from ardee_datasets.drive import Drive
 from ardee_datasets.inputs import digests
 from ardee_datasets.lidar import Lidar
-from ardee_datasets.plan import Scene, Shot, scenes, shots
+from ardee_datasets.plan import Scene, Shot, scenes, shot_count, shots
 from ardee_datasets.recipe import Recipe, read_recipe
 from ardee_datasets.sample import json_bytes, take
 from ardee_datasets.scenery import CameraPose, Scenery
@@ -29,12 +28,29 @@ _TRUTH = ("truth.csv", "truth.json", "clutter.csv")
 
 
 def _is_done(folder: Path, scene: Scene, shot: Shot) -> bool:
-    return (folder / scene.keys.split / "samples" / f"{shot.id}.json").is_file()
+    file = folder / scene.keys.split / "samples" / f"{shot.id}.json"
+    return file.is_file() and file.stat().st_size > 0
 
 
 def is_complete(folder: Path, recipe: Recipe, scene: Scene) -> bool:
     """Returns whether all pictures of a scene are there."""
     return all(_is_done(folder, scene, shot) for shot in shots(recipe, scene))
+
+
+def _todo(folder: Path, recipe: Recipe) -> List[Scene]:
+    """Returns the scenes of which pictures are missing, or were changed after the set was finished."""
+    changed: Dict[str, str] = {}
+    for name in sorted(damaged(folder)):
+        path = Path(name)  # such as train/rgb/corn_0000_000003.png, truth/corn_0000/truth.csv
+        changed.setdefault(path.stem.rpartition("_")[0], name)
+        changed.setdefault(path.parent.name, name)
+    todo = []
+    for scene in scenes(recipe):
+        if scene.name in changed:
+            say("generate_dataset", f"{changed[scene.name]}: missing or changed, {scene.name} is made again")
+        if scene.name in changed or not is_complete(folder, recipe, scene):
+            todo.append(scene)
+    return todo
 
 
 def _views(
@@ -67,8 +83,8 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
         expected = "expected the folder of the data set under the same path on all workers"
         raise GeneratorError(f"{folder}: found no such folder on {host}, {expected}")
     try:
-        with tempfile.TemporaryDirectory(prefix="ardee_field_") as temporary:
-            _take_pictures(folder, recipe, scene, Scenery(scene, Path(temporary)))
+        with scratch_folder("ardee_field_") as temporary:
+            _take_pictures(folder, recipe, scene, Scenery(scene, temporary))
     except (GeneratorError, ArdeeError) as error:
         raise GeneratorError(f"{scene.name}: {error}") from None
     except OSError as error:
@@ -121,7 +137,11 @@ def _made(
 def _check_same(folder: Path, recipe_file: Path, recipe: Recipe) -> None:
     """Refuses a folder that holds another data set, or something else."""
     given = {"dataset.yaml": recipe_file.read_bytes(), "inputs.json": json_bytes(digests(recipe))}
-    if {path.name for path in folder.iterdir()} <= set(given):
+    there = {path.name for path in folder.iterdir()}
+    is_begun = there < set(given) and all(
+        (folder / name).read_bytes() == given[name] for name in there
+    )
+    if is_begun or there == set(given):
         for name, content in given.items():
             write_file(folder / name, content)  # new, or of a recipe that was refused
         return
@@ -143,12 +163,12 @@ def _check_same(folder: Path, recipe_file: Path, recipe: Recipe) -> None:
 def plan_text(recipe: Recipe) -> str:
     """Returns the plan of a recipe in words: a line for each field, and the count."""
     planned = scenes(recipe)
+    counts = [shot_count(recipe, scene) for scene in planned]
     lines = [
-        f"{scene.name}  {scene.keys.split}  {len(list(shots(recipe, scene)))} pictures"
-        for scene in planned
+        f"{scene.name}  {scene.keys.split}  {count} pictures"
+        for scene, count in zip(planned, counts)
     ]
-    count = sum(len(list(shots(recipe, scene))) for scene in planned)
-    return "\n".join((*lines, f"{len(planned)} fields, {count} pictures"))
+    return "\n".join((*lines, f"{len(planned)} fields, {sum(counts)} pictures"))
 
 
 def generate(args: argparse.Namespace) -> Optional[str]:
@@ -163,8 +183,7 @@ def generate(args: argparse.Namespace) -> Optional[str]:
         lack = yolo_lack({keys.split for keys in recipe.fields.values()})
         if lack:
             say("generate_dataset", f"warning: {lack}")
-        todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
-        _work_off(folder, recipe, todo, args)
+        _work_off(folder, recipe, _todo(folder, recipe), args)
         assemble(folder, recipe)
     return str(args.output)
 

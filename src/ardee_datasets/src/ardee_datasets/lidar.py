@@ -28,6 +28,9 @@ _RIG = """<robot name="rig" xmlns:xacro="http://ros.org/wiki/xacro">
 """
 
 
+_STEEP = 1e-3  # horizontal part of a direction that has no heading
+
+
 @functools.lru_cache
 def _rig(name: str, sensor: str) -> str:
     """Returns the URDF of a lidar without a body."""
@@ -61,9 +64,11 @@ class Lidar:
         simulation.demand(self._topic)
 
     def pose_above(self, camera: CameraPose) -> CameraPose:
-        """Returns its pose, upright, above that of a camera."""
-        left = camera.rotation.apply((0, 1, 0))  # level, since no camera rolls
-        upright = Rotation.from_euler("z", np.arctan2(-left[0], left[1]))
+        """Returns its pose, upright, above that of a camera; above one that looks straight down or up, that one's left."""
+        ahead, left = camera.rotation.apply(((1, 0, 0), (0, 1, 0)))
+        if np.hypot(*ahead[:2]) < _STEEP:
+            ahead = np.array((left[1], -left[0]))
+        upright = Rotation.from_euler("z", np.arctan2(ahead[1], ahead[0]))
         return CameraPose(camera.xyz_m + (0, 0, self._above_m), upright)
 
     def measure(self, pose: CameraPose, items: Dict[int, Item]) -> Cloud:

@@ -95,6 +95,8 @@ class LightKeys:
                 return Daylight.at(*self.place_deg, first + share * (last - first), **air)
             except ArdeeError:  # at night
                 continue
+            except OverflowError:  # in another zone it is before the year 1 or after 9999
+                raise GeneratorError(f"times: found {first}, expected years 2 to 9998") from None
         raise GeneratorError(
             f"times: found night alone at {list(self.place_deg)}, expected some day"
         )

@@ -9,9 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from ardee_datasets.rows import Size, project
 
-_ITERATIONS = (
-    4  # between a point's row and the time of that row; each leaves a few hundredths of the error
-)
+_CLOSE_ROWS, _MOST_STEPS = 1e-3, 100  # between a point's row and the time of that row
 
 
 @dataclass(frozen=True)
@@ -39,10 +37,13 @@ class Motion:
         """Returns the places [n, 3] where points [n, 3] would lie if the camera stood still at its pose X_WC."""
         if not self.readout_time_s:
             return points_m
-        apparent = points_m
-        for _ in range(_ITERATIONS):
+        apparent, row = points_m, np.full(len(points_m), np.inf)
+        for _ in range(_MOST_STEPS):
             pixels, depth = project(apparent, K, X_WC)
+            before = row
             row = np.where(depth > 0.0, np.clip(pixels[:, 1], 0.0, size[1]), size[1] / 2)
+            if (np.abs(row - before) < _CLOSE_ROWS).all():
+                break
             time_s = self.readout_time_s * (row / size[1] - 0.5)[:, None]
             turned = Rotation.from_rotvec(-time_s * self.w_rad_s)
             eye_m = X_WC[:3, 3]

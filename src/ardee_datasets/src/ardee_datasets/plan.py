@@ -2,7 +2,7 @@
 """The plan of a data set: its scenes with their seeds, and the pictures of each."""
 
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Optional, Set
+from typing import Any, Dict, Iterator, List, Optional, Set, Tuple
 
 from ardee_sim import Daylight
 
@@ -56,16 +56,27 @@ def scenes(recipe: Recipe) -> List[Scene]:
     return made
 
 
+def _carriers(recipe: Recipe, scene: Scene) -> List[Tuple[str, List[str]]]:
+    """Returns the names of robots ("": none) that take pictures in a scene, each with those of its cameras."""
+    wanted = scene.keys.cameras or (*(recipe.cameras or ()), *(recipe.robots or ()))
+    alone = [("", [name]) for name in sorted(recipe.cameras or ()) if name in wanted]
+    robots = sorted((recipe.robots or {}).items())
+    return alone + [(name, list(robot.cameras)) for name, robot in robots if name in wanted]
+
+
+def shot_count(recipe: Recipe, scene: Scene) -> int:
+    """Returns the number of pictures of a scene."""
+    return scene.keys.frames * sum(len(cameras) for _, cameras in _carriers(recipe, scene))
+
+
 def shots(recipe: Recipe, scene: Scene) -> Iterator[Shot]:
     """Yields the pictures of a scene, in the order of their ids."""
-    wanted = scene.keys.cameras or (*(recipe.cameras or ()), *(recipe.robots or ()))
-    places = range(scene.keys.frames)
     views = [
-        (name, "", k) for name in sorted(recipe.cameras or ()) if name in wanted for k in places
+        (camera, robot, k)
+        for robot, cameras in _carriers(recipe, scene)
+        for k in range(scene.keys.frames)
+        for camera in cameras
     ]
-    for robot, read in sorted((recipe.robots or {}).items()):
-        if robot in wanted:
-            views += [(camera, robot, k) for k in places for camera in read.cameras]
     for frame, (camera, robot, k) in enumerate(views):
         seed = child_seed(scene.seed, "shot", frame)
         yield Shot(f"{scene.name}_{frame:06d}", camera, seed, robot, k)

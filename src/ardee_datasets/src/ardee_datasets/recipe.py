@@ -4,7 +4,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Iterable, Optional, Tuple
 
 import yaml
 from ardee_sim.packages import find_package
@@ -42,7 +42,7 @@ class FieldKeys:
 
 @dataclass(frozen=True)
 class LidarKeys:
-    """A 3D lidar that stands upright above each camera and has its heading."""
+    """A 3D lidar that stands upright above each camera and looks where that looks."""
 
     sensor: str = option(dataclasses.MISSING, "3D lidar of ardee_sensors, such as vlp16")
     above_m: float = option(0.1, "height above the camera", (0.0, 5.0))
@@ -89,9 +89,9 @@ def _fields(recipe: Recipe, path: Path) -> Dict[str, FieldKeys]:
     for name, keys in _named(FieldKeys, recipe.fields, "fields").items():
         try:
             options, ranges = checked_options(keys.options, keys.ranges, recipe.labels)
-            for number in range(keys.fields if ranges else 1):
+            for number in range(keys.fields if ranges or options.get("gaps") else 1):
                 seed = field_seed(recipe.seed, scene_name(name, number))
-                check_field(drawn_options(options, ranges, seed))
+                check_field(drawn_options(options, ranges, seed), seed)
         except GeneratorError as error:
             at = recipe.fields.error(name, "")
             text = str(error)
@@ -193,6 +193,24 @@ def _check_names(recipe: Recipe) -> None:
                 raise given.error(name, f"{found}; expected another")
 
 
+def view_name(robot: str, camera: str) -> str:
+    """Returns what samples call a camera, of a robot or ("") of none."""
+    return f"{robot}_{camera}" if robot else camera
+
+
+def _check_views(recipe: Recipe, cameras: Iterable[str], robots: Dict[str, Robot]) -> None:
+    """Raises GeneratorError for a camera of a robot with the name of another camera in samples."""
+    taken = set(cameras)
+    for robot, read in robots.items():
+        for camera in read.cameras:
+            name = view_name(robot, camera)
+            if name in taken:
+                found = f"robots: found another camera {name} than camera {camera} of robot {robot}"
+                assert recipe.robots
+                raise recipe.robots.error(robot, f"{found}; expected another name")
+            taken.add(name)
+
+
 def read_recipe(path: Path) -> Recipe:
     """Reads and checks a recipe. Raises GeneratorError with file and line."""
     given = read_yaml_lines(path)
@@ -203,6 +221,7 @@ def read_recipe(path: Path) -> Recipe:
     cameras, robots = _cameras(recipe), _robots(recipe, path.parent)
     if not cameras and not robots:
         raise given.error("", "found neither cameras nor robots, expected some")
+    _check_views(recipe, cameras, robots)
     for name, keys in fields.items():
         try:
             check_cameras(keys.cameras, (*cameras, *robots))

@@ -19,6 +19,7 @@ from ardee_datasets.categories import OWN_LABELS
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.motion import Motion
 from ardee_datasets.plan import Scene, Shot
+from ardee_datasets.recipe import view_name
 from ardee_datasets.rows import Row, Size, foot_keypoint, nearest_direction, vanishing_point
 from ardee_datasets.scenery import CameraPose, Item, Scenery
 
@@ -206,7 +207,7 @@ def take(
     taken = scenery.simulation.picture(
         **camera, exposure=keys.exposure, white_balance=keys.white_balance
     )
-    name = f"{shot.robot}_{shot.camera}" if shot.robot else shot.camera
+    name = view_name(shot.robot, shot.camera)
     lens = scenery.lens(name, keys)
     own, seen = numbered(taken["instances"], scenery.items)
     items = [scenery.items[instance] for instance in seen]

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
 from ardee_datasets.camera import CameraKeys
-from ardee_datasets.field_options import FIELD, WIDEST_LANE_M
+from ardee_datasets.field_options import FIELD, TERRAIN, WIDEST_LANE_M
 from ardee_datasets.lens import Lens
 from ardee_datasets.plan import Scene
 from ardee_datasets.ranges import Range
@@ -26,7 +26,6 @@ from ardee_world.row_truth import Lane, Polyline, Pose, lane_of, read_field
 from ardee_world.trial import standing_m
 from ardee_world.writers.world import world_text
 
-_TERRAIN = "heightmap_ground"
 # Axes of the optical frame (x right, y down, z ahead) in those of a body (x ahead, y left, z up), REP 103
 _OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
 
@@ -91,7 +90,7 @@ class Scenery:
     def __init__(self, scene: Scene, folder: Path) -> None:
         options = scene.options()
         shipped = [Path(name) for name in packages.model_folders()]
-        terrain = options["terrain"] = options.get("terrain") or _TERRAIN
+        terrain = options["terrain"] = options.get("terrain") or TERRAIN
         values = {
             **options,
             "name": FIELD,

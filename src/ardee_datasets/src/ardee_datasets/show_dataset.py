@@ -15,6 +15,7 @@ from ardee_common.cli import Parser, run, steps, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_common.output import output_folder
 from ardee_datasets.recipe import SPLITS
+from ardee_datasets.sample import LAYERS
 
 _PROG = "show_dataset"
 _TILE_PX = 320
@@ -97,8 +98,11 @@ def _tiles(folder: Path, sample: Dict[str, Any]) -> List[Image.Image]:
     """Returns the tiles of a sample, of one size: boxes, rows and feet; masks; organs; depth."""
 
     def layer(name: str) -> np.ndarray:
-        (path,) = (folder / sample["split"] / name).glob(f"{sample['id']}.*")
-        return np.asarray(Image.open(path))
+        path = folder / sample["split"] / name / f"{sample['id']}.{LAYERS[name]}"
+        try:
+            return np.asarray(Image.open(path))
+        except OSError as error:  # PIL's own, too
+            raise GeneratorError(f"{path}: cannot be read: {error}") from None
 
     rgb = layer("rgb")
     tiles = (
@@ -107,7 +111,7 @@ def _tiles(folder: Path, sample: Dict[str, Any]) -> List[Image.Image]:
         _coloured(layer("organs"), rgb, _ORGAN_RGB.__getitem__),
         _depth(layer("depth")),
     )
-    size = _TILE_PX, round(_TILE_PX * sample["height_px"] / sample["width_px"])
+    size = _TILE_PX, max(1, round(_TILE_PX * sample["height_px"] / sample["width_px"]))
     return [tile.resize(size, Image.Resampling.LANCZOS) for tile in tiles]
 
 

@@ -133,6 +133,21 @@ def _check_within(places_m: np.ndarray) -> None:
         )
 
 
+def check_plan(config: FieldConfig, seed: int, terrain: Ground) -> None:
+    """Raises GeneratorError for a plan that generate() refuses, or of which plants stand beside the terrain."""
+    plan = plan_centres(config.plots, config.shape)
+    _check_within(plan.centres_m)
+    draw_gaps(plan, config.stand, Streams(seed).of("gaps"))
+    low, high = terrain.bounds_m()
+    world = to_world(plan.centres_m, config.world_pose)[:, :2]
+    beside = ((world < low) | (world > high)).any(axis=1)
+    if beside.any():
+        extent = f"x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m"
+        raise GeneratorError(
+            f"found {beside.sum()} of {len(world)} plants beside the terrain ({extent}), expected all on it"
+        )
+
+
 def generate(
     config: FieldConfig,
     pool: Tuple[CropModel, ...],
