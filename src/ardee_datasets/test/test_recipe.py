@@ -43,7 +43,11 @@ def read(folder: Path, old: str, new: str) -> object:
         ),
         ("_variant_7", "_varient_7", "recipe.yaml:12: models: model 'corn_varient_7': not found"),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
-        ("row_length_m: 3.0,", "row_length_m: 18.0,", "corn: options: .*beside the terrain .x -15 to 15 m"),
+        (
+            "row_length_m: 3.0,",
+            "row_length_m: 18.0,",
+            "corn: options: .*beside the terrain .x -15 to 15 m",
+        ),
         ("row_length_m: 3.0,", "row_length_m: 3.0, gaps: 20,", "corn: options: gaps: found 20 of"),
         ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
     ],

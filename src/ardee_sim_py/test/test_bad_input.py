@@ -19,6 +19,8 @@ def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia:
         (ArdeeError, "was not demanded", lambda: sim.latest("ardee/imu/custom")),
         (ArdeeError, "already exists", lambda: sim.spawn("robot", terrasentia)),
         (ArdeeError, "expected 3 finite", lambda: sim.spawn("x", terrasentia, xyz_m=(0, 1))),
+        (ArdeeError, "expected 3 numbers", lambda: sim.spawn("x", terrasentia, xyz_m=("0", 1, 2))),
+        (ArdeeError, "expected 3 numbers", lambda: sim.spawn("x", terrasentia, xyz_m=(0, 1, 2j))),
         (ArdeeError, "n: found -1, expected 0", lambda: sim.step(-1)),
         (ArdeeError, "no model 'nobody'", lambda: sim.remove("nobody")),
         (ArdeeError, "as robot\\(\\) returns", lambda: sim.spawn("x", "tsv1_default")),

@@ -9,7 +9,7 @@ from typing import Any, Dict
 import gymnasium
 import numpy as np
 import pytest
-from ardee_sim import ArdeeError
+from ardee_sim import ArdeeError, World
 from test_envs import AHEAD, Make
 
 
@@ -98,6 +98,19 @@ def test_options_that_cannot_be_are_refused(make: Make) -> None:
     ]:
         with pytest.raises(ArdeeError, match=said):
             env.reset(options=options)
+
+
+def test_a_field_that_was_moved_away_from_its_truth_is_refused(tmp_path: Path, make: Make) -> None:
+    shipped = Path(World.from_file("corn.world").path)
+    text, pose = shipped.read_text(), "<pose>0 0 0 0 0 -1.57</pose>"
+    assert text.count(pose) == 1
+    start = shipped.with_suffix(".start.yaml").read_text()
+    (tmp_path / "moved.start.yaml").write_text(start)
+    moved = tmp_path / "moved.world"
+    moved.write_text(text.replace(pose, "<pose>0 0.4 0 0 0 -1.57</pose>"))
+    said = "found corn-field included at 0 0.4 0 0 0 -1.57, expected 0 0 0 0 0 -1.57, for which"
+    with pytest.raises(ArdeeError, match=said):
+        make(scenario=None, world=moved)
 
 
 def test_an_action_of_words_is_refused(make: Make) -> None:

@@ -147,6 +147,8 @@ def test_bad_options_are_refused(yard: ardee_sim.Simulation) -> None:
         port = taken.getsockname()[1]
         with pytest.raises(ardee_sim.ArdeeError, match=f"127.0.0.1:{port}.*in use.*free port"):
             view(yard, port=port)
+    with pytest.raises(ardee_sim.ArdeeError, match="127.0.0.1:65536: port must be 0-65535"):
+        view(yard, port=65536)
     with pytest.raises(ardee_sim.ArdeeError, match=r"no robot 'robbot'.*\['robot'\]"):
         view(yard, port=0, robot="robbot")
     with pytest.raises(ardee_sim.ArdeeError, match="radius_m: found -1"):

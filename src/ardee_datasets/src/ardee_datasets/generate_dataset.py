@@ -47,7 +47,10 @@ def _todo(folder: Path, recipe: Recipe) -> List[Scene]:
     todo = []
     for scene in scenes(recipe):
         if scene.name in changed:
-            say("generate_dataset", f"{changed[scene.name]}: missing or changed, {scene.name} is made again")
+            say(
+                "generate_dataset",
+                f"{changed[scene.name]}: missing or changed, {scene.name} is made again",
+            )
         if scene.name in changed or not is_complete(folder, recipe, scene):
             todo.append(scene)
     return todo

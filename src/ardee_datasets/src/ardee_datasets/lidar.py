@@ -64,7 +64,7 @@ class Lidar:
         simulation.demand(self._topic)
 
     def pose_above(self, camera: CameraPose) -> CameraPose:
-        """Returns its pose, upright, above that of a camera; above one that looks straight down or up, that one's left."""
+        """Returns its pose, upright, above a camera, whose left tells the heading where it looks straight down."""
         ahead, left = camera.rotation.apply(((1, 0, 0), (0, 1, 0)))
         if np.hypot(*ahead[:2]) < _STEEP:
             ahead = np.array((left[1], -left[0]))

@@ -129,8 +129,9 @@ std::vector<std::size_t> DynamicModel::hanging_on(std::size_t joint) const {
     }
   }
   if (has(parent_group(cut))) {
-    throw Error("joint '" + cut.name + "' of model '" + model_->name +
-                "': found it in a closed chain, its position cannot be set alone");
+    const std::string found_it = moving_joint(joint) ? "in a closed chain" : "fixed";
+    throw Error("joint '" + cut.name + "' of model '" + model_->name + "': found it " + found_it +
+                ", expected one whose position can be set alone");
   }
   return found;
 }

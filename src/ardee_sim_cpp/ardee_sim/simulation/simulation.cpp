@@ -104,6 +104,10 @@ Entity& Simulation::add(std::unique_ptr<Entity> entity) {
   const std::string& name = entity->name();
   const std::shared_ptr<const Model> model = entity->instance.model;
   if (name.empty()) throw Error("found an empty model name, expected one");
+  if (name == "world") {
+    throw Error(
+        "found the model name 'world', which is that of the inertial frame, expected another");
+  }
   if (find(name)) throw taken(name);
   require_in_world(name, entity->instance.pose);
   // A model without links of its own (a field of included plants) has nothing that could move.

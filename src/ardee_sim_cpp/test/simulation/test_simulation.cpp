@@ -63,6 +63,8 @@ TEST(Simulation, ANameIsTakenOnce) {
   TestWorld world("");
   world.spawn(ball(), "ball", kHigh);
   EXPECT_EQ(refusal([&] { world.spawn(ball(), "ball"); }), "entity already exists: 'ball'");
+  EXPECT_EQ(refusal([&] { world.spawn(ball(), "world"); }),
+            "found the model name 'world', which is that of the inertial frame, expected another");
 }
 
 TEST(Simulation, AnUnknownPluginIsAWarning) {

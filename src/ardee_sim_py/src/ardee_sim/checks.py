@@ -82,7 +82,10 @@ def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:
 def vector(values: Vector, name: str, size: int = 3) -> np.ndarray:
     """Returns finite numbers, float64[size]."""
     try:
-        made = np.asarray(values, dtype=float)
+        given = np.asarray(values)
+        if given.dtype.kind in "USc":
+            raise TypeError("text or complex")
+        made = given.astype(float)
     except (TypeError, ValueError, OverflowError):
         raise ArdeeError(f"{found(values, name)}, expected {size} numbers") from None
     if made.shape != (size,) or not np.isfinite(made).all():

@@ -2,6 +2,7 @@
 """Robots' descriptions: expands xacro without ROS."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,8 @@ from ardee_sim import checks
 from ardee_sim.errors import ArdeeError
 from ardee_sim.packages import find_package
 from ardee_sim.world import PathLike, read_text
+
+_FILE = re.compile(r"""(\bfilename\s*=\s*["']|<uri>)([^"'<:]+)(?=["'<])""")
 
 
 def _xacro_file(name_or_path: PathLike) -> Path:
@@ -35,9 +38,19 @@ def robot(name_or_path: PathLike, **xacro_arguments: Union[str, float, bool]) ->
     if path.suffix != ".xacro":
         if xacro_arguments:
             raise ArdeeError(f"{path}: found xacro arguments for a file that is not .xacro")
-        return read_text(path)
+        return _with_whole_paths(read_text(path), path.resolve().parent)
     arguments = [f"{key}:={_text(value)}" for key, value in xacro_arguments.items()]
-    return _expand(path, arguments)
+    return _with_whole_paths(_expand(path, arguments), path.resolve().parent)
+
+
+def _with_whole_paths(text: str, folder: Path) -> str:
+    """Returns a description that can be read anywhere: files beside that of the robot are given by their paths."""
+
+    def whole(found: "re.Match[str]") -> str:
+        file = folder / found[2].strip()
+        return f"{found[1]}{file}" if os.path.isfile(file) else found[0]
+
+    return _FILE.sub(whole, text)
 
 
 def _text(value: Union[str, float, bool]) -> str:

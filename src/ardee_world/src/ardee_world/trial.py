@@ -18,9 +18,11 @@ from ardee_models.terrain.height_map import Ground
 from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
 from ardee_world.row_truth import Field, Pose, read_field
+from ardee_world.seating import own_pose
 from ardee_world.start import STAND_M, Start
 
 HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
+_PLACE_TOLERANCE = 1e-3  # m and rad
 # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
 START_SD_M, START_SD_RAD = 0.03, 0.05
 
@@ -77,6 +79,24 @@ def field_and_terrain(world: Path, folders: List[Path]) -> Tuple[Path, str]:
     return models[fields[0]], terrains[0]
 
 
+def _check_places(world: Path, field: Path, terrain: str) -> None:
+    """Raises GeneratorError if an include has moved the field or the terrain from where the truth has them."""
+    planned = {field.name: own_pose((field / "model.sdf").read_text()), terrain: (0.0, 0.0, 0.0)}
+    for include in ElementTree.parse(world).iterfind("world/include"):
+        name = (include.findtext("uri") or "").strip()[len("model://") :]
+        pose = include.findtext("pose")
+        if name not in planned or pose is None:
+            continue
+        x, y, yaw = planned[name]
+        try:
+            off = np.array(pose.split(), dtype=float) - (x, y, 0.0, 0.0, 0.0, yaw)
+        except ValueError:
+            off = np.array([np.inf])
+        if not (np.abs(off) < _PLACE_TOLERANCE).all():
+            expected = f"expected {x:g} {y:g} 0 0 0 {yaw:g}, for which its truth was written"
+            raise GeneratorError(f"{world}: found {name} included at {pose.strip()}, {expected}")
+
+
 def _sow(
     plan: Path, seed: int, folder: Path, changes: Mapping[str, object], models: Sequence[Path]
 ) -> None:
@@ -125,6 +145,7 @@ def prepare(
     models = [folder] if plan else []
     folders = search_path([*models, *more_models])
     field, terrain = field_and_terrain(world, folders)
+    _check_places(world, field, terrain)
     truth = read_field(field / "truth.json")
     start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))
     return Trial(world, models, truth, start_near(start, seed), ground_model(terrain, folders))

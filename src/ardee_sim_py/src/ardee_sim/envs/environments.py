@@ -207,7 +207,7 @@ class GoToEnv(FieldEnv):
 
     Arguments
     ---------
-    fix_topic, imu_topic : of the robot's receiver and IMU
+    fix_topic, imu_topic : of the robot's receiver, whose world has x east and y north, and IMU
     error_topic : of the receiver's true error, by which the first fix is corrected; None: that fix counts as exact
     scenario="corn", and all others of FieldEnv
 
@@ -228,4 +228,4 @@ class GoToEnv(FieldEnv):
 
 
 def _in_corn(arguments: Dict[str, Any]) -> Dict[str, Any]:
-    return arguments if "world" in arguments else {"scenario": "corn", **arguments}
+    return arguments if arguments.get("world") is not None else {"scenario": "corn", **arguments}

@@ -134,10 +134,13 @@ class FieldEnv(gymnasium.Env):
 
     def _check_topics(self) -> None:
         topics = self.simulation.topics().items()
-        known = [name.strip("/") for name, info in topics if info.role == "reading"]
-        for topic in names(self._task.topics, "topics"):
-            if topic.strip("/") not in known:
+        known = [name.lstrip("/") for name, info in topics if info.role == "reading"]
+        wanted = [topic.lstrip("/") for topic in names(self._task.topics, "topics")]
+        for topic in wanted:
+            if topic not in known:
                 raise ArdeeError(f"topics: found '{topic}', {known_names(topic, known)}")
+            if wanted.count(topic) > 1:
+                raise ArdeeError(f"topics: found '{topic}' twice, expected it once")
 
     def _sow(self, seed: int, numbers: Mapping[str, float]) -> None:
         """Loads the field of a seed with drawn numbers, and spawns the robot in its origin; if refused, all stays."""

@@ -34,8 +34,8 @@ def as_array(reading: Reading) -> np.ndarray:
 
 
 def scaled_depths(depths_m: np.ndarray) -> np.ndarray:
-    """Returns depths / DEPTH_M, 1 where nothing is nearer."""
-    return np.clip(depths_m / np.float32(DEPTH_M), 0.0, 1.0)
+    """Returns depths / DEPTH_M, 1 where nothing is nearer or was measured."""
+    return np.clip(np.nan_to_num(depths_m / np.float32(DEPTH_M), nan=1.0), 0.0, 1.0)
 
 
 def space_of(array: np.ndarray, reading_has_sign: bool = False) -> spaces.Box:

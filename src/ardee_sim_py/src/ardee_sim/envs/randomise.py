@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Domain randomisation: the names of what may be drawn for an episode, and what scene numbers change."""
 
+import contextlib
 import math
 import re
 import shutil
 from dataclasses import replace
 from numbers import Real
 from pathlib import Path
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -34,6 +35,7 @@ SCENE = {
 }
 # Leaves of a sown field's plants, rounded: with a visible collar (corn, sorghum), or all visible ones (tobacco).
 STAGE = "stage"
+_FILES = ("uri", "diffuse", "normal", "filename")  # of a world, which may be relative to it
 _NOISE = re.compile(
     r"(<(?:stddev|bias_stddev|dynamic_bias_stddev|noiseGrowth|\w*[gG]aussianNoise|\w*[dD]rift)>)([^<]+)(?=</)"
 )
@@ -87,7 +89,11 @@ def with_noise(robot: str, scale: float) -> str:
     """Returns a robot's description whose sensors have `scale` times the standard deviations and drifts."""
 
     def scaled(found: "re.Match[str]") -> str:
-        return found[1] + " ".join(str(float(value) * scale) for value in found[2].split())
+        try:
+            numbers = [float(value) for value in found[2].replace(",", " ").split()]
+        except ValueError:  # in a comment, or for the simulator to refuse
+            return found[0]
+        return found[1] + " ".join(str(value * scale) for value in numbers)
 
     return robot if scale == 1.0 else _NOISE.sub(scaled, robot)
 
@@ -101,10 +107,24 @@ def with_scene(trial: Trial, drawn: Numbers, folder: Path, models: Sequence[Path
         return trial
     tree = ElementTree.parse(trial.world)
     _change_light(tree, drawn, trial.world)
+    for node in tree.iter():
+        file = trial.world.parent / (node.text or "").strip()
+        if node.tag in _FILES and file.is_file():
+            node.text = str(file)
     world = folder / "drawn.world"
     tree.write(world)
     shutil.copyfile(trial.world.with_suffix(".start.yaml"), world.with_suffix(".start.yaml"))
     return replace(trial, world=world)
+
+
+def _numbers(node: ElementTree.Element, counts: Sequence[int], file: Path) -> List[float]:
+    """Returns the numbers of an element, as many as one of the counts."""
+    with contextlib.suppress(ValueError):
+        numbers = [float(value) for value in (node.text or "").split()]
+        if len(numbers) in counts:
+            return numbers
+    expected = " or ".join(map(str, counts))
+    raise ArdeeError(f"{file}: <{node.tag}>: found {node.text!r}, expected {expected} numbers")
 
 
 def _change_light(tree: ElementTree.ElementTree, drawn: Numbers, file: Path) -> None:
@@ -112,15 +132,15 @@ def _change_light(tree: ElementTree.ElementTree, drawn: Numbers, file: Path) -> 
     if sun is None or scene is None:
         raise ArdeeError(f"{file}: found no directional <light> or no <scene>, expected both")
     direction = _child(sun, "direction", "0 0 -1")
-    x, y, z = (float(value) for value in (direction.text or "").split())
+    x, y, z = _numbers(direction, (3,), file)
     azimuth = drawn.get("sun_azimuth_rad", math.atan2(-y, -x))
     elevation = drawn.get("sun_elevation_rad", math.atan2(-z, math.hypot(x, y)))
     flat = -math.cos(elevation)
     direction.text = f"{flat * math.cos(azimuth)} {flat * math.sin(azimuth)} {-math.sin(elevation)}"
     colour = _child(sun, "diffuse", "1 1 1 1")
-    *rgb, alpha = (float(value) for value in (colour.text or "").split())
+    red, green, blue, *alpha = _numbers(colour, (3, 4), file)
     bright = drawn.get("sun_intensity", 1.0)
-    colour.text = " ".join(str(value) for value in (*(bright * each for each in rgb), alpha))
+    colour.text = " ".join(map(str, (bright * red, bright * green, bright * blue, *alpha)))
     if "ambient" in drawn:
         _child(scene, "ambient", "").text = " ".join([str(drawn["ambient"])] * 3 + ["1"])
 

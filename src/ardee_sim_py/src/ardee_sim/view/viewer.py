@@ -31,6 +31,8 @@ _EYE_M = (-1.3, 0.0, 0.6)  # of the first view, in the robot's axes
 def _require_free(host: str, port: int) -> None:
     """Raises ArdeeError if the page cannot be served there."""
     try:
+        if not 0 <= port <= 65535:  # getaddrinfo() takes some others for small ones
+            raise OverflowError("port must be 0-65535")
         kind = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
         with socket.socket(kind[0], socket.SOCK_STREAM) as trial:
             trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -214,8 +216,8 @@ class Viewer:
         # a simulation that is late, or was reset, does not hurry afterwards
         if self._clock[2] != self.wanted.pace or self._ahead_s() < 0:
             self._start_clock()
-        while self._ahead_s() > 0 and self._clock[2] == self.wanted.pace:
-            time.sleep(min(self._ahead_s(), _WAIT_S))
+        while (ahead_s := self._ahead_s()) > 0 and self._clock[2] == self.wanted.pace:
+            time.sleep(min(ahead_s, _WAIT_S))
             self._panel.take()
 
     def _draw(self) -> None:
