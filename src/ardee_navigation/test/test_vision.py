@@ -120,6 +120,19 @@ def test_a_picture_too_small_or_narrow_is_refused_and_changes_nothing(size_px: t
     assert follower.update(picture, 2 * DT_S) == others.update(picture, 2 * DT_S)
 
 
+@pytest.mark.parametrize(
+    "picture, found",
+    [
+        (np.zeros((96, 128), np.uint8), r"uint8\[96, 128\]"),
+        (np.zeros((96, 128, 4), np.uint8), r"uint8\[96, 128, 4\]"),
+        (np.zeros((96, 128, 3)), r"float64\[96, 128, 3\]"),
+    ],
+)
+def test_a_picture_of_another_kind_is_refused(picture: np.ndarray, found: str) -> None:
+    with pytest.raises(GeneratorError, match=f"found a picture {found}, expected uint8"):
+        VisionFollower(P).update(picture, 0.0)
+
+
 def test_what_is_seen_is_drawn_where_it_is() -> None:
     picture = picture_of(CAMERA, 0.05, 0.1)
     output = VisionFollower(P).update(picture, 0.0)

@@ -6,6 +6,7 @@ from typing import Union
 
 import numpy as np
 
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lane_following import LaneFollower, Line, State
 from ardee_navigation.lane_following.control import centre_error_m
 from ardee_navigation.lane_following.line import blend, turned
@@ -61,7 +62,11 @@ class VisionFollower:
         self._unseen_s = math.inf
 
     def update(self, rgb: np.ndarray, time_s: float) -> Output:
-        """Returns the output for the picture uint8[h, w, 3] taken at `time_s`; GeneratorError for a wrong size."""
+        """Returns the output for the picture uint8[h, w, 3] taken at `time_s`; GeneratorError if it is none."""
+        if rgb.dtype != np.uint8 or rgb.ndim != 3 or rgb.shape[2] != 3:
+            raise GeneratorError(
+                f"found a picture {rgb.dtype}{[*rgb.shape]}, expected uint8[h, w, 3]"
+            )
         check_size(rgb.shape[1], rgb.shape[0])
         dt_s = self._run.elapsed_s(time_s)
         if dt_s is None:
