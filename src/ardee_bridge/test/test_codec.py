@@ -119,6 +119,8 @@ def test_scaling_and_saturation():
     battery = codec.BatteryData(voltage=math.nan, vmax=-math.inf).to_raw()
     assert battery.voltage == NO_VALUE and battery.vmax == NO_VALUE + 1
     assert math.isnan(battery.to_si().voltage)
+    intensities = codec.LidarData(intensities=[math.nan, 1.0]).to_raw().to_si().intensities
+    assert math.isnan(intensities[0]) and intensities[1] == 1.0
 
 
 def test_ranges_out_of_range():

@@ -162,6 +162,16 @@ def test_a_lost_chunk_loses_its_frame_alone():
     assert assembler.lost_frames == 1
 
 
+def test_a_late_chunk_of_the_frame_before_loses_no_other():
+    first, second = frame(b"a" * 900, 300, 0), frame(b"b" * 900, 300, 1)
+    assembler = chunks.Assembler()
+    order = [first[0], first[1], second[0], first[2], second[1], second[2]]
+    assert [whole.payload for whole in map(lambda m: assembler.feed(*m), order) if whole] == [
+        b"b" * 900
+    ]
+    assert assembler.lost_frames == 1
+
+
 def test_an_empty_cloud_is_a_frame():
     head = codec.PointCloudChunk()
     ((header, data),) = chunks.split(codec.DataType.POINT_CLOUD, 0, head, b"", 1600)

@@ -4,12 +4,15 @@ import itertools
 import math
 from datetime import date
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, Dict
 
+import numpy as np
 import pytest
 import small_campaign
 from PIL import Image
 
+from ardee_campaigns import controllers
 from ardee_campaigns.campaign_file import CampaignKeys, ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
@@ -47,6 +50,25 @@ def test_a_latin_hypercube_has_one_point_in_each_part_of_each_range(tmp_path: Pa
     assert [math.floor((speed - 0.2) / 0.1) for speed in speeds] == list(range(8))
     assert sorted(point["turn_rad_s"] for point in points) == [0] * 4 + [1] * 4
     assert points == [dict(cell.factors) for cell in cells(read_campaign(file))][:8]
+
+
+def test_points_of_listed_values_that_are_equal_are_one(tmp_path: Path) -> None:
+    factors, plan = {"gain": [1, 2]}, {"kind": "latin_hypercube", "points": 4}
+    file = small_campaign.write(tmp_path, factors=factors, plan=plan)
+    assert len({cell.factors for cell in cells(read_campaign(file))}) == 2
+    found = cells(read_campaign(file))
+    assert len(found) == len(set(found))
+
+
+def test_what_a_controller_tells_is_checked() -> None:
+    assert controllers.about(SimpleNamespace(about={"scans": 3}), {"width_m"}) == {"scans": 3}
+    for told, said in (({"scans": np.int64(3)}, "int64"), ({"width_m": 5.0}, "width_m")):
+        with pytest.raises(GeneratorError, match=f"controller's about: .*{said}"):
+            controllers.about(SimpleNamespace(about=told), {"width_m"})
+    assert controllers.seen(SimpleNamespace(seen=np.array([0.3, 0.4]))) == (0.3, 0.4)
+    assert all(map(math.isnan, controllers.seen(SimpleNamespace(seen=None))))
+    with pytest.raises(GeneratorError, match="is_finished: found a method"):
+        controllers.is_finished(SimpleNamespace(is_finished=lambda: False))
 
 
 def test_seeds_are_paired_and_runs_are_known_by_their_inputs(tmp_path: Path) -> None:

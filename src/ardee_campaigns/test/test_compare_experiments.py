@@ -80,6 +80,14 @@ def test_a_pair_without_a_number_is_left_out_of_its_quantity(
     assert "nan" not in text
 
 
+def test_a_single_pair_has_no_interval(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    one = experiment(tmp_path / "one", [row(1, 0.010), row(2, math.nan)])
+    other = experiment(tmp_path / "other", [row(1, 0.011), row(2, 0.033)])
+    assert main(["compare_experiments", one, other]) == 0
+    found = cells(capsys.readouterr().out)["lateral RMS [cm], 1 pairs"]
+    assert found == ["1.00", "1.10", "+0.10", "-"]
+
+
 def test_pairs_without_any_way_are_left_out_and_said_so(
     tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:

@@ -31,6 +31,11 @@ def row(run_id: str, **changes: object) -> tables.RunRow:
     return tables.RunRow(**{**values, **changes})
 
 
+def test_a_whole_number_that_no_float_holds_is_rounded(tmp_path: Path) -> None:
+    large = row("0" * 16, factors={"speed_m_s": 2**53 + 1, "kind": "x"})
+    assert tables._flat(large, SCHEMA)["factor_speed_m_s"] == float(2**53)
+
+
 def samples(count: int) -> pa.Table:
     line = {name: 0 for name, _ in tables.SAMPLE_FIELDS}
     line.update(event="", raw_along_m=[1.0, 2.0], raw_lateral_m=[0.25, -0.25])

@@ -58,6 +58,18 @@ def test_a_robot_that_would_say_so_but_stands_near_the_end_has_ended() -> None:
     assert judged(until_m(9.6), finished_at_s=1e9) == (END_OF_ROW, pytest.approx(12.6), [])
 
 
+@pytest.mark.parametrize("period_s", [0.03, 0.033, 0.05, 0.7])
+def test_a_robot_that_stands_is_noticed_at_any_period(period_s: float) -> None:
+    """After 2 s, or at the first sample after them."""
+    judge, pose = Judge(TaskKeys(), LANE, limit_s=60.0), Pose(5.0, 0.0, 0.0)
+    stuck = (
+        number * period_s
+        for number in range(200)
+        if judge.look(number * period_s, pose, LANE.deviation(pose), False)[0] == "stuck"
+    )
+    assert next(stuck) == pytest.approx(math.ceil(2.0 / period_s - 1e-6) * period_s)
+
+
 def test_a_robot_that_is_off_the_lane_is_set_back_to_its_middle() -> None:
     judge = Judge(TaskKeys(), LANE, limit_s=60.0)
     for x_m, y_m, expected in ((4.0, 0.37, ""), (4.1, -0.39, "off the lane"), (9.6, 0.39, "")):

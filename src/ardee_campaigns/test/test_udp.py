@@ -8,11 +8,13 @@ import pytest
 import small_campaign
 from small_campaign import run, write
 
-from ardee_campaigns import tables
+from ardee_bridge.wire import codec
+from ardee_campaigns import tables, udp
 from ardee_campaigns.campaign_file import read_campaign
 from ardee_campaigns.plan import Planner
 from ardee_common.errors import GeneratorError
 
+LIMITS = codec.MAX_SPEED_M_S, codec.MAX_YAW_RATE_RAD_S
 PROGRAM = [sys.executable, str(small_campaign.HERE / "udp_program.py"), "{bind}", "{controls}"]
 
 
@@ -59,3 +61,10 @@ def test_a_program_that_cannot_be_meant_is_refused(tmp_path: Path, keys: dict, s
     with pytest.raises(GeneratorError) as caught:
         Planner(read_campaign(file))
     assert said in str(caught.value) and str(caught.value).startswith(f"{file}:")
+
+
+def test_a_command_beyond_the_limits_is_the_limit() -> None:
+    motion = codec.MotionCommands(
+        normalized_speed=2_000_000, normalized_yaw_rate=-5_000_000, multiplier=1_000_000
+    )
+    assert udp._motion(motion) == (LIMITS[0], -LIMITS[1])

@@ -135,3 +135,9 @@ def test_a_reader_that_has_seen_enough_is_no_error() -> None:
     line = f'set -o pipefail; PYTHONPATH={source} /usr/bin/python3 -c "{program}" | head -c 1'
     done = subprocess.run(["bash", "-c", line], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "x", "")
+
+
+def test_a_small_negative_number_is_no_name() -> None:
+    parser = Parser()
+    parser.add_argument("--pose", type=float, nargs=3)
+    assert parser.parse_args(["--pose", "-1e-1", "-.5", "-2"]).pose == [-0.1, -0.5, -2.0]

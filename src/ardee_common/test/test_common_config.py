@@ -100,7 +100,9 @@ def test_aliases_of_aliases_are_refused(tmp_path: Path, form: str) -> None:
         read(tmp_path, "\n".join(lines))
 
 
-@pytest.mark.parametrize("text", ["", "- 1\n", "a: [", "\x00"])
+@pytest.mark.parametrize(
+    "text", ["", "- 1\n", "a: [", "\x00", "a: !!bool maybe", "a: !!timestamp soon"]
+)
 def test_files_that_are_no_mapping(text: str, tmp_path: Path) -> None:
     with pytest.raises(GeneratorError, match="ditch.yaml"):
         read(tmp_path, text)

@@ -84,6 +84,21 @@ def test_stalks_become_models_of_their_own(scene, tmp_path, capsys, kind):
         assert float(collision.findtext(".//length")) == pytest.approx(height, rel=0.01)
 
 
+def test_a_file_named_after_its_stalk_is_searched_for_it(tmp_path, capsys):
+    """Without parts of their own, leaves would count as stalk; a mesh that is there twice has two names."""
+    plant = trimesh.util.concatenate([_stalk(FEET[0], 0.6), _leaf(FEET[0], 0.6, 1.2)])
+    one = _save(trimesh.Scene({"plant": plant}), tmp_path / "corn_stalk.stl", "stl")
+    assert _run(capsys, one, "--mesh-up", "z", "--name", "a", "--output", tmp_path / "out")[0] == 0
+    assert crop_model("a", [tmp_path / "out"]).stalk_radius_m == pytest.approx(RADIUS, rel=0.03)
+    scene = trimesh.Scene({"stem": _stalk(FEET[0], 0.6), "stem_2": _leaf(FEET[0], 0.6, 1.2)})
+    turned = trimesh.transformations.rotation_matrix(2.0, [0, 0, 1])
+    scene.graph.update(frame_to="again", matrix=turned, geometry="stem")
+    two = _save(scene, tmp_path / "twice.glb", "glb")
+    assert _run(capsys, two, "--mesh-up", "z", "--name", "b", "--output", tmp_path / "out")[0] == 0
+    names = ElementTree.parse(tmp_path / "out/b/model.sdf").findall(".//submesh/name")
+    assert sorted(node.text for node in names) == ["stem", "stem_2", "stem_3"]
+
+
 def test_model_is_drawn_from_both_sides_with_its_textures(scene, tmp_path, capsys):
     mesh = _save(scene, tmp_path / "field.glb", "glb")
     _run(capsys, mesh, "--mesh-up", "z", "--name", "mine", "--output", tmp_path / "out")

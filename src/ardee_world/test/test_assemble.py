@@ -2,6 +2,7 @@
 """Tests a field and a terrain put together into a world."""
 
 import json
+import re
 import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -285,3 +286,13 @@ def test_the_scripts_say_what_they_do(package, script):
     result = subprocess.run([path, "-h"], capture_output=True, text=True, check=True)
     assert "FIELD" in result.stdout and "TERRAIN" in result.stdout and "-y" in result.stdout
     assert subprocess.run([path, "--no"], capture_output=True).returncode == 2
+
+
+def test_plots_lie_on_the_terrain(put_together, tmp_path):
+    """The GPS's regions have heights: those of the ground in their middle."""
+    assert put_together() == (0, "")
+    text = (tmp_path / "out/models/custom_field/plots.xacro").read_text()
+    x, y, z = (float(re.search(rf"<{tag}>([^<]+)", text)[1]) for tag in "xyz")
+    ground = terrain_model("custom_heightmap", [tmp_path / "out/models"])
+    assert z == pytest.approx(float(ground.height_at(np.array([x]), np.array([y]))[0]), abs=1e-4)
+    assert z != 0.0

@@ -3,12 +3,15 @@
 
 import csv
 import json
+import math
+import re
+import shutil
 
 import pytest
 from PIL import Image
 
 from ardee_world.generate_field import main, make_parser
-from ardee_world.request import all_fields
+from ardee_world.request import all_fields, configure, with_changes
 
 BASE = ("--models", "corn_a", "corn_b", "--name", "field")
 
@@ -257,3 +260,53 @@ def test_help_gives_units(capsys):
         "--gps-origin-deg LAT LON",
     ):
         assert words in text
+
+
+def test_a_length_as_a_change_wins_over_a_number_of_stalks():
+    plan = {"stalks_per_row": 54, "models": ["a"], "name": "f"}
+    assert configure(with_changes(plan, {"row_length_m": 4.0}))[1].plots.row_length_m == 4.0
+    assert "stalks_per_row" in with_changes(plan, {"row_spacing_m": 0.7})
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (("--noise-covariance-m2", "0.004096", "0.001792", "0.0007840000000000001"), "covariance"),
+        (("--old-origin",), "--old-origin"),
+    ],
+)
+def test_a_line_says_what_was_wrong(generate_field, tmp_path, words, message):
+    code, said = generate_field("--models", "corn_a", "--name", "f", "--output", tmp_path, *words)
+    assert code == 2 and message in said and said.count("\n") == 1
+
+
+def test_an_empty_pool_and_texts_with_commas(generate_field, models, tmp_path):
+    file = tmp_path / "f.yaml"
+    file.write_text("models: [corn_a]\nname: f\nweed_density_per_m2: 1\nweed_models: []\n")
+    code, said = generate_field(file, "--output", tmp_path)
+    assert (code, "weed_models: found none, expected names" in said) == (2, True)
+    shutil.copytree(models / "corn_a", tmp_path / "models" / "corn_x")
+    metrics = tmp_path / "models/corn_x/metrics.json"
+    data = json.loads(metrics.read_text())
+    metrics.write_text(json.dumps({**data, "species": "Zea mays, L."}))
+    field = ("--models", "corn_x", "--name", "g", "--model-path", tmp_path / "models")
+    assert generate_field(*field, "--output", tmp_path)[0] == 0
+    with (tmp_path / "g/truth.csv").open() as lines:
+        assert {row["species"] for row in csv.DictReader(lines)} == {"Zea mays, L."}
+    metrics.write_text(json.dumps({**data, "label": -3}))
+    assert "found label -3, expected 0 to 65535" in generate_field(*field, "--output", tmp_path)[1]
+
+
+def test_rows_that_are_listed_from_either_end_have_one_plot(generate_field, tmp_path):
+    """Four rows of 10 m along x, every second one from its far end."""
+    along, lines = [0.2 * k for k in range(51)], ["x_m,y_m,plot,row"]
+    for row in range(4):
+        lines += [f"{x:g},{0.75 * row:g},0,{row}" for x in along[:: 1 if row % 2 else -1]]
+    (tmp_path / "rows.csv").write_text("\n".join(lines) + "\n")
+    words = ("--centers", tmp_path / "rows.csv", "--world-pose", "0", "0", "0")
+    field = ("--models", "corn_a", "--name", "f", "--output", tmp_path)
+    assert generate_field(*field, *words)[0] == 0
+    text = (tmp_path / "f/plots.xacro").read_text()
+    numbers = [float(re.search(rf"<{tag}>([^<]+)", text)[1]) for tag in ("row_length", "rotation")]
+    assert numbers[0] == pytest.approx(10.0, abs=0.1)
+    assert abs(math.sin(numbers[1])) < 0.01

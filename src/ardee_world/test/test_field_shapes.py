@@ -154,3 +154,11 @@ def test_an_expression_is_what_it_says():
     x = np.linspace(0.0, 3.0, 7)
     y = parse_expression("-2**2 + abs(x - 1) * sqrt(x) % 2 + pi/exp(0)")(x)
     np.testing.assert_allclose(y, -4 + np.abs(x - 1) * np.sqrt(x) % 2 + np.pi)
+
+
+def test_an_expression_s_line_begins_in_the_lane_of_the_start():
+    lines = [
+        plan_centres(Plots(), RowShape(row_shape="expression", row_expression=text)).centres_m
+        for text in ("1.5 * cos(x / 3)", "1.5 * cos(x / 3) - 1.5")
+    ]
+    assert np.allclose(*lines)

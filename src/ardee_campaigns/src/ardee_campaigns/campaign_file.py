@@ -94,6 +94,9 @@ class RobotKeys:
     def __post_init__(self) -> None:
         if (self.length_m is None) != (self.width_m is None):
             raise GeneratorError("found one of length_m and width_m, expected both or none")
+        for use, topic in (self.topics or {}).items():
+            if not isinstance(topic, str) or not topic.strip("/"):
+                raise GeneratorError(f"topics: {use}: found {topic!r}, expected a topic")
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,10 @@ run.
 import hashlib
 import importlib
 import importlib.util
+import json
 import math
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping, Tuple
+from typing import Any, Callable, Collection, Dict, Iterable, Mapping, Tuple
 
 import ardee_sim
 
@@ -103,10 +104,29 @@ def checked(answer: Any) -> Command:
 
 def seen(controller: Any) -> Tuple[float, float]:
     """Returns the distances [m] to the left and right row that a controller perceives; NaN if it does not say."""
-    left, right = getattr(controller, "seen", None) or (math.nan, math.nan)
+    found = getattr(controller, "seen", None)
+    if found is None or len(found) == 0:
+        return math.nan, math.nan
+    left, right = found
     return float(left), float(right)
+
+
+def about(controller: Any, taken: Collection[str]) -> Dict[str, Any]:
+    """Returns what a controller tells about its run, which its file is to hold; `taken` are the run's own names."""
+    told = dict(getattr(controller, "about", {}))
+    for name in told:
+        if name in taken:
+            raise GeneratorError(f"controller's about: found {name!r}, which a run has of its own")
+    try:
+        json.dumps(told)
+    except (TypeError, ValueError) as error:
+        raise GeneratorError(f"controller's about: {error}, expected what JSON holds") from None
+    return told
 
 
 def is_finished(controller: Any) -> bool:
     """Returns whether a controller says that it has come to its end."""
-    return bool(getattr(controller, "is_finished", False))
+    found = getattr(controller, "is_finished", False)
+    if callable(found):
+        raise GeneratorError("controller's is_finished: found a method, expected true or false")
+    return bool(found)

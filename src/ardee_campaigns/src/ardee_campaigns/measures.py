@@ -158,7 +158,10 @@ def _energy_j(run: Recorded, _truth: Trial) -> float:
 
 # Name to function and its meaning
 MEASURES: Dict[str, Any] = {
-    "way_m": (lambda run, truth: run.way_m().sum(), "way along the lane, between the rows' ends"),
+    "way_m": (
+        lambda run, truth: run.way_m().sum(),
+        "way along the lane, between the rows' ends; again where the robot backed up",
+    ),
     "distance_m": (lambda run, truth: _driven_m(run), "length of the robot's path"),
     "lateral_rms_m": (
         lambda run, truth: run.rms(run["lateral_m"]),

@@ -76,8 +76,8 @@ def _points(campaign: Campaign) -> Iterator[Tuple[Tuple[str, Value], ...]]:
         return
     rng = np.random.default_rng(np.random.SeedSequence(campaign.keys.seed, spawn_key=(1,)))
     columns = [_stratified(factor, plan.points, rng) for factor in factors.values()]
-    for chosen in zip(*columns):
-        yield tuple(zip(factors, chosen))
+    points = (tuple(zip(factors, chosen)) for chosen in zip(*columns))
+    yield from dict.fromkeys(points)  # listed values may give one twice
 
 
 def _stratified(factor: FactorKeys, count: int, rng: np.random.Generator) -> List[Value]:

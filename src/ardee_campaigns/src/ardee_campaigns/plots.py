@@ -5,6 +5,7 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
+matplotlib.rcParams["text.parse_math"] = False  # a level's name may have dollars in it
 
 from matplotlib import pyplot  # noqa: E402
 

@@ -102,7 +102,7 @@ class Run:
             self._loop(driven, controller, judge, lane, trial, watch)
             if is_ros(job):
                 controller.check_end()
-            self.about.update(getattr(controller, "about", {}))
+            self.about.update(controllers.about(controller, taken=self.about))
         self.end = judge.end
         recorded = measures.Recorded(
             self.recorder.columns(),

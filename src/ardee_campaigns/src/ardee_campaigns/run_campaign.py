@@ -2,6 +2,7 @@
 """Command `run_campaign`: works off a campaign's file, goes on where it stopped, writes tables."""
 import argparse
 import contextlib
+import csv
 import math
 import os
 import sys
@@ -207,11 +208,12 @@ def _list(session: Session) -> None:
     jobs = session.jobs(keys.replicates)
     left = {job.run_id for job in session.open(jobs)}
     print("run_id,world,robot,controller,replicate,seed,is_done" + _header(session))
+    lines = csv.writer(sys.stdout, lineterminator="\n")
     for job in jobs:
         cell, is_done = job.cell, int(job.run_id not in left)
-        names = f"{job.run_id},{cell.world},{cell.robot},{cell.controller}"
-        factors = "".join(f",{value}" for _, value in cell.factors)
-        print(f"{names},{job.replicate},{job.seed},{is_done}{factors}")
+        names = (job.run_id, cell.world, cell.robot, cell.controller)
+        factors = (value for _, value in cell.factors)
+        lines.writerow((*names, job.replicate, job.seed, is_done, *factors))
     workers = keys.workers or len(os.sched_getaffinity(0))
     wall_s, how = _wall_s(session, jobs)
     hours = len(left) * wall_s / workers / 3600.0

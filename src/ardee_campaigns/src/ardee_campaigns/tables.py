@@ -153,7 +153,10 @@ def factor_type(values: Sequence[Factor]) -> pa.DataType:
 
 def stored(values: Sequence[Factor]) -> List[Factor]:
     """Returns a factor's values as its column has them."""
-    kind = factor_type(values)
+    return _converted(values, factor_type(values))
+
+
+def _converted(values: Sequence[Factor], kind: pa.DataType) -> List[Factor]:
     convert = str if kind == pa.string() else float if kind == pa.float64() else bool
     return [convert(value) for value in values]
 
@@ -164,8 +167,7 @@ def _flat(row: RunRow, schema: pa.Schema) -> Dict[str, Any]:
     measures = flat.pop("measures")
     for name, value in flat.pop("factors").items():
         column = f"factor_{name}"
-        is_text = schema.field(column).type == pa.string()
-        flat[column] = str(value) if is_text else value
+        (flat[column],) = _converted([value], schema.field(column).type)
     flat.update({name: float(value) for name, value in measures.items()})
     for field in schema:
         if field.type == pa.float64():

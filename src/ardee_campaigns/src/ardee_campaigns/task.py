@@ -62,7 +62,10 @@ class Judge:
     def _stands(self, time_s: float, pose: Pose) -> bool:
         """Returns whether the robot has not moved for a while."""
         self._track.append((time_s, pose))
-        while time_s - self._track[0][0] > self._keys.stuck_after_s + 1e-9:
+        # the oldest is the last that is old enough, at whatever period samples come
+        while (
+            len(self._track) > 1 and time_s - self._track[1][0] >= self._keys.stuck_after_s - 1e-6
+        ):
             self._track.popleft()
         since_s, then = self._track[0]
         moved = math.hypot(pose.x_m - then.x_m, pose.y_m - then.y_m)

@@ -13,6 +13,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 from ardee_bridge.nodes import convert
 from ardee_bridge.wire import codec
+from ardee_bridge.wire.c_struct import NO_VALUE
 from ardee_bridge.wire.pairing import Pairer
 from ardee_campaigns.program import check, end_with_parent, filled
 from ardee_campaigns.robot import Observation, Robot
@@ -146,8 +147,14 @@ class UdpController:
                 return False
             message = self._pairer.feed(sender, datagram, time.monotonic())
             if message and codec.data_struct(message.header) is codec.MotionCommands:
-                self._latest = _motion(codec.MotionCommands.unpack(message.data))
-                return True
+                commands = codec.MotionCommands.unpack(message.data)
+                is_whole = NO_VALUE not in (
+                    commands.normalized_speed,
+                    commands.normalized_yaw_rate,
+                )
+                if commands.multiplier >= 1 and is_whole:
+                    self._latest = _motion(commands)
+                    return True
 
     def close(self) -> None:
         """Ends the program."""
@@ -180,8 +187,7 @@ def _scan(reading: Any) -> codec.Datagrams:
 
 
 def _motion(data: codec.MotionCommands) -> Command:
-    """Returns speed [m/s] and turn rate [rad/s] of a motion command."""
-    return (
-        data.normalized_speed / data.multiplier * codec.MAX_SPEED_M_S,
-        data.normalized_yaw_rate / data.multiplier * codec.MAX_YAW_RATE_RAD_S,
-    )
+    """Returns speed [m/s] and turn rate [rad/s] of a motion command, within the limits of the wire."""
+    shares = (data.normalized_speed, data.normalized_yaw_rate)
+    speed, turn = (max(-1.0, min(1.0, share / data.multiplier)) for share in shares)
+    return speed * codec.MAX_SPEED_M_S, turn * codec.MAX_YAW_RATE_RAD_S

@@ -23,6 +23,7 @@ from ardee_world.request import (
     configure,
     placed_values,
     read_paths,
+    with_changes,
     yaml_values,
 )
 from ardee_world.trial import Trial
@@ -113,7 +114,7 @@ def check_options(
             for path in read_paths({name: values[name]}):
                 if not path.exists():
                     raise GeneratorError(f"options: {name}: found {str(path)!r}, no such file")
-        configure({**yaml_values(files.plan), **values, "name": files.plan.stem})
+        configure({**with_changes(yaml_values(files.plan), values), "name": files.plan.stem})
     elif options:
         found = f"options: found {', '.join(options)}"
         raise GeneratorError(f"{found} for a world without field recipe, expected a recipe")
@@ -137,7 +138,7 @@ def parts(
     own: Sequence[Path] = ()
     if files.plan:
         names = [name for name in names if name != files.plan.stem]
-        values = {**yaml_values(files.plan), **_options(keys, factors, folder)}
+        values = with_changes(yaml_values(files.plan), _options(keys, factors, folder))
         sources, config = configure({**values, "name": files.plan.stem})
         names += [*sources.models, *([sources.terrain] if sources.terrain else [])]
         for kind in KINDS:
@@ -169,8 +170,7 @@ def sow(
     if files.world:
         return trial.prepare(files.world, files.plan, seed, folder, options, shipped)
     assert files.plan is not None
-    values = yaml_values(files.plan)
-    values.update(options)
+    values = with_changes(yaml_values(files.plan), options)
     name = files.plan.stem
     values["model_path"] = (*values.get("model_path", ()), *map(str, shipped))
     values.update(name=name, output=str(folder), seed=seed)

@@ -45,6 +45,8 @@ class Parser(argparse.ArgumentParser):
         kwargs.setdefault("formatter_class", Help)
         super().__init__(*args, **kwargs)
         self._old_names = old_names or {}
+        # argparse's own takes -1e-3 for the name of an argument
+        self._negative_number_matcher = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parses the arguments by their present names, with a note for each old name."""

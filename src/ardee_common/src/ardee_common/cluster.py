@@ -30,7 +30,8 @@ def connected(address: Optional[str], workers: int, losses: int) -> Iterator[Cli
     workers : number of processes on this machine
     losses : of workers at a task that this machine's scheduler bears before it gives the task up
     """
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", "asyncio"):  # which tell of a lost scheduler in tracebacks
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     settings = {
         "distributed.scheduler.allowed-failures": losses,
         "distributed.scheduler.work-stealing": True,

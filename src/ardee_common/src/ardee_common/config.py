@@ -118,6 +118,10 @@ def read_yaml_lines(path: Path) -> Mapping:
         raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError) as error:
         raise not_yaml(path, error) from error
+    except (KeyError, AttributeError) as error:  # of a tag such as !!bool with another text
+        raise GeneratorError(
+            f"{path}: found a value that its !!tag does not allow: {error}"
+        ) from error
     if not isinstance(data, Mapping):
         found = "nothing" if data is None else type(data).__name__
         raise GeneratorError(f"{path}: found {found}, expected a mapping of keys to values")

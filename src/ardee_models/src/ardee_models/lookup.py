@@ -134,6 +134,8 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
             raise GeneratorError(
                 f"{path}: expected numbers height_m, stalk_radius_m, label: {error!r}"
             ) from error
+    if not 0 <= data["label"] <= 65535:
+        raise GeneratorError(f"{model}: found label {data['label']:g}, expected 0 to 65535")
     if not (0.0 < data["height_m"] < 100.0 and 0.0 < data["stalk_radius_m"] < 10.0):
         raise GeneratorError(
             f"{model}: found height {data['height_m']} m, radius {data['stalk_radius_m']} m"

@@ -4,6 +4,7 @@
 import contextlib
 import importlib
 import io
+import itertools
 import logging
 import os
 import sys
@@ -105,6 +106,7 @@ def _triangulated(obj: str) -> str:
         if word != "f":
             lines.append(line)
             continue
+        rest = list(itertools.takewhile(lambda text: text[0] != "#", rest))
         corners = ["/".join(map(absolute, text.split("/"), counts.values())) for text in rest]
         lines += [f"f {corners[0]} {a} {b}" for a, b in zip(corners[1:], corners[2:])]
     return "\n".join(lines)

@@ -25,6 +25,7 @@ from ardee_world.moving import (
     origin_of,
     place_truth,
     read_truth,
+    seat_plots,
 )
 from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
 from ardee_world.start import Start, read_start, start_file
@@ -156,7 +157,7 @@ def assemble(args: argparse.Namespace) -> Path:
     seated = is_generated(model) and not args.keep_heights
     table = _table(field, model, ground if seated else None)
     if seated:
-        model = seat(model, ground)
+        model, plots = seat(model, ground), seat_plots(plots, ground)
     if truth:
         place_truth(truth, own_pose(model), ground if seated else None)
     start = start.on(ground)

@@ -88,7 +88,9 @@ def _poisson(density: float, area_m2: float, what: str, rng: np.random.Generator
 
 def _beside_rows(config: Clutter, plan: Plan, streams: Streams) -> np.ndarray:
     """Draws places of the edges' weeds: in strips beside the outer rows; machines turn before the rows' ends."""
-    forwards = unit(plan.along.sum(axis=0) + (0.0, _TINY))
+    against = plan.along @ plan.along[0] < 0.0  # a row may be listed from its other end
+    along = np.where(against[:, None], -plan.along, plan.along)
+    forwards = unit(along.sum(axis=0) + (0.0, _TINY))
     axes = np.stack((forwards, left_of(forwards)))
     rows = bounds_of(plan.centres_m @ axes.T, 0.0)
     (back, right), (front, left) = rows.low_m, rows.high_m

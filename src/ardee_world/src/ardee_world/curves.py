@@ -44,7 +44,8 @@ class Line:
 
     def _offsets(self, u: np.ndarray) -> np.ndarray:
         if self.shape.row_shape == "expression":
-            return parse_expression(self.shape.row_expression)(u)
+            bent = parse_expression(self.shape.row_expression)
+            return bent(u) - bent(np.zeros(1))  # the line begins in the lane of the start pose
         turns = 2.0 * np.pi * u / self.shape.sine_wavelength_m
         return self.shape.sine_amplitude_m * np.sin(turns)
 

@@ -222,7 +222,7 @@ def _shape_checks(shape: RowShape) -> list:
 def _joint_checks(config: FieldConfig) -> list:
     xx, xy, yy = config.noise_covariance_m2
     none_at_all = (xx, xy, yy) == (0.0, 0.0, 0.0)
-    definite = xx > 0 and yy > 0 and xx * yy > xy * xy
+    definite = xx > 0 and yy > 0 and xx * yy * (1 - 1e-9) > xy * xy
     short, tall = config.stalk_height_min_m, config.stalk_height_max_m
     latitude, longitude = config.origin_latitude_deg, config.origin_longitude_deg
     stand, count = config.stand, config.plots.planned_count()

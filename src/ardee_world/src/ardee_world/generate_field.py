@@ -18,7 +18,15 @@ from ardee_world.clutter import KINDS, has_items
 from ardee_world.field_config import FieldConfig
 from ardee_world.field_layout import generate
 from ardee_world.plots import Plan
-from ardee_world.request import Sources, Values, check_partners, configure, groups, yaml_values
+from ardee_world.request import (
+    Sources,
+    Values,
+    check_partners,
+    configure,
+    groups,
+    with_changes,
+    yaml_values,
+)
 from ardee_world.writers.field import write_field
 
 _TITLES = {
@@ -55,6 +63,7 @@ def _flag(key: str) -> str:
 def _old_names() -> Dict[str, str]:
     """Names without units, and that of the thesis for the number of rows (Figure 4.4: n_rows)."""
     keys = {field.name for cls in groups().values() for field in scalar_fields(cls)}
+    keys -= {"origin_latitude_deg", "origin_longitude_deg"}  # whose flag is --gps-origin-deg
     old = {_flag(plain_name(key)): _flag(key) for key in keys if plain_name(key) != key}
     return {**old, "--rows": "--rows-per-plot"}
 
@@ -158,9 +167,7 @@ def make_field(args: argparse.Namespace) -> Path:
     if "row_length_m" in given and "stalks_per_row" in given:
         raise GeneratorError("found --row-length-m and --stalks-per-row, expected one of them")
     values = yaml_values(file) if file else {}
-    if "row_length_m" in given:
-        values.pop("stalks_per_row", None)
-    values = {**values, **given}
+    values = with_changes(values, given)
     check_partners(values)
     path = make_configured(values)
     folders = [str(Path(folder).resolve()) for folder in configure(values)[0].model_path]
@@ -184,6 +191,8 @@ def make_configured(values: Values, *, has_map: bool = True) -> Path:
         for kind in KINDS
         if has_items(kind, config.clutter)
     }
+    for kind in (kind for kind, found in pools.items() if not found):
+        raise GeneratorError(f"{kind}_models: found none, expected names of models")
     terrain = ground_model(sources.terrain, folders) if sources.terrain else None
     layout = generate(config, pool, sources.seed, terrain, _plan(sources), pools)
     if layout.count() == 0:

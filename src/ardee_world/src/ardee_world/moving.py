@@ -64,6 +64,18 @@ def move_plots(plots: str, old: WorldPose, new: WorldPose) -> str:
     return _PLOT.sub(moved, plots)
 
 
+def seat_plots(plots: str, ground: Ground) -> str:
+    """Returns the text of plots.xacro with the middle of every plot on the ground."""
+
+    def seated(match: "re.Match") -> str:
+        text = match.group(0)
+        x, y = (float(re.search(rf"<{tag}>\s*([^<\s]+)", text).group(1)) for tag in "xy")  # type: ignore
+        z = float(ground.height_at(np.array([x]), np.array([y]))[0])
+        return re.sub(r"(<z>)[^<]*(</z>)", rf"\g<1>{z + 0.0:.4f}\g<2>", text)
+
+    return _PLOT.sub(seated, plots)
+
+
 def move_start(start: Start, old: WorldPose, new: WorldPose) -> Start:
     """Returns the start pose before the moved field."""
     x, y = _moved(start.x_m, start.y_m, old, new)

@@ -196,6 +196,14 @@ def _check_centers(values: Values) -> None:
             raise GeneratorError(f"{spoken(key)}: {found}")
 
 
+def with_changes(values: Values, changes: Values) -> Values:
+    """Returns options with changes, which win: of a row's length, too, over a number of stalks."""
+    made = {**values, **changes}
+    if changes.get("row_length_m") is not None:
+        made.pop("stalks_per_row", None)
+    return made
+
+
 def configure(values: Values) -> Tuple[Sources, FieldConfig]:
     """Checks options by key; returns the generator's inputs."""
     given, values = values, _resolve_aliases(values)

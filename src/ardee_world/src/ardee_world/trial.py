@@ -2,6 +2,7 @@
 """Parts of a run in a world: a freshly sown field, its truth, a start pose, the ground."""
 
 import contextlib
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -16,7 +17,7 @@ from ardee_models.lookup import find_model, search_path
 from ardee_models.terrain.ground import ground_model, is_ground
 from ardee_models.terrain.height_map import Ground
 from ardee_world.generate_field import make_configured
-from ardee_world.request import yaml_values
+from ardee_world.request import with_changes, yaml_values
 from ardee_world.row_truth import Field, Pose, read_field
 from ardee_world.seating import own_pose
 from ardee_world.start import STAND_M, Start
@@ -90,6 +91,7 @@ def _check_places(world: Path, field: Path, terrain: str) -> None:
         x, y, yaw = planned[name]
         try:
             off = np.array(pose.split(), dtype=float) - (x, y, 0.0, 0.0, 0.0, yaw)
+            off[5] = math.remainder(off[5], math.tau)
         except ValueError:
             off = np.array([np.inf])
         if not (np.abs(off) < _PLACE_TOLERANCE).all():
@@ -100,8 +102,7 @@ def _check_places(world: Path, field: Path, terrain: str) -> None:
 def _sow(
     plan: Path, seed: int, folder: Path, changes: Mapping[str, object], models: Sequence[Path]
 ) -> None:
-    values = yaml_values(plan)
-    values.update(changes)
+    values = with_changes(yaml_values(plan), dict(changes))
     values["model_path"] = (*values.get("model_path", ()), *map(str, models))
     values.update(name=plan.stem, output=str(folder), seed=seed)
     make_configured(values, has_map=False)

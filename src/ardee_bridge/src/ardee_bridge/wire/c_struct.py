@@ -152,7 +152,7 @@ class CStruct:
             if per_unit is None:
                 return value
             if isinstance(leaf.kind, Array):
-                return tuple(raw / per_unit for raw in value)
+                return tuple(math.nan if raw == NO_VALUE else raw / per_unit for raw in value)
             return math.nan if value == NO_VALUE else value / per_unit
 
         return self._from_values(map(physical, self.leaves, self._values()))

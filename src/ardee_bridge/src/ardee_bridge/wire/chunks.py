@@ -61,6 +61,7 @@ class Assembler:
     def __init__(self, max_components: int = 16) -> None:
         self.lost_frames = self.bad_chunks = 0
         self._frames: Dict[Tuple[int, int], _Frame] = {}
+        self._replaced: Dict[Tuple[int, int], tuple] = {}  # keys of the frames before
         self._max_components = max_components
 
     def feed(self, header: codec.Header, data: bytes) -> Optional[Whole]:
@@ -96,8 +97,11 @@ class Assembler:
         frame = self._frames.get(place)
         if frame is not None and frame.key == key:
             return frame
+        if key == self._replaced.get(place):
+            return None  # a late chunk of the frame before
         if frame is not None:
             self.lost_frames += not frame.done
+            self._replaced[place] = frame.key
         elif len(self._frames) >= self._max_components:
             self.bad_chunks += 1
             return None

@@ -39,7 +39,7 @@ def _difference(one: Runs, other: Runs, shown: Quantity) -> List[str]:
         shown.text + count,
         *means,
         signed(found.estimate),
-        f"{signed(found.low)} to {signed(found.high)}",
+        f"{signed(found.low)} to {signed(found.high)}" if math.isfinite(found.low) else "-",
     ]
 
 
@@ -49,6 +49,9 @@ def compare(one: Runs, other: Runs, names: Tuple[str, str]) -> str:
     Raises GeneratorError if the runs are of more than one world.
     """
     worlds = [runs.levels("world") for runs in (one, other)]
+    for each, name in zip(worlds, names):
+        if not each:
+            raise GeneratorError(f"found no run in {name} that did not fail, expected some")
     if worlds[0] != worlds[1] or len(worlds[0]) != 1:
         found = " and ".join(f"{', '.join(each)} in {name}" for each, name in zip(worlds, names))
         raise GeneratorError(f"found the worlds {found}, expected one and the same in both")

@@ -4,7 +4,7 @@
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional
+from typing import Dict, List, Optional, Set
 
 import numpy as np
 from PIL import Image
@@ -52,11 +52,14 @@ def _part(name: str, piece: Piece) -> UserPart:
 def read_mesh(path: Path, up: str, scale: Optional[float], say: Say) -> List[UserPart]:
     """Reads all geometries of the file, each at its place in the scene; `up` x, y, z or auto, `scale` metres a unit."""
     parts: Dict[str, UserPart] = {}
+    taken: Set[str] = set()  # in lower case, in which their visuals are named
     for piece in read_pieces(path, up, scale, say):
         plain = re.sub("[^A-Za-z0-9_-]", "_", piece.name)
         name = base = re.sub("-(geometry|mesh)$", "", plain) or "Part"
-        while name in parts:
-            name = f"{base}_{len(parts)}"
+        number = len(parts)
+        while name.lower() in taken:
+            name, number = f"{base}_{number}", number + 1
+        taken.add(name.lower())
         parts[name] = _part(name, piece)
     heights = np.concatenate([part.mesh.vertices[:, 2] for part in parts.values()])
     if not 0.005 < np.ptp(heights) < 50.0:

@@ -61,6 +61,8 @@ def fit(parts: Sequence[UserPart], stem: Optional[str]) -> Cylinder:
             raise GeneratorError(f"--stem {stem}: found no such part, the mesh has {known}")
     else:
         chosen = [p for p in parts if any(word in p.name.lower() for word in _STEM_NAMES)]
+        if len(chosen) == len(parts):  # named after the file, say: leaves are among them
+            chosen = []
     if chosen:
         return fit_cylinder(np.concatenate([part.mesh.vertices for part in chosen]))
     return fit_stalk_among_leaves(vertices, _STALK_RADIUS_PART * float(np.ptp(vertices[:, 2])))

@@ -167,6 +167,10 @@ def _plain_terrain(args: argparse.Namespace) -> Terrain:
     names = {n: getattr(args, n) for _, n, _ in _PLAIN if getattr(args, n) is not None}
     samples = TerrainParams().samples if args.samples is None else args.samples
     params = TerrainParams(size_m=_size(args), samples=samples, **names)
+    pixel_m, spacing_m = params.size_m / max(params.samples - 1, 1), params.row_spacing_m
+    if params.ridge_height_m > 0.0 and pixel_m > 0.5 * spacing_m:
+        expected = f"expected at least two pixels of {pixel_m:g} m, or more samples"
+        _warn(f"terrain ridges spacing: found {spacing_m:g} m, {expected}")
     return generate_terrain(params, np.random.default_rng(args.seed or 0))
 
 

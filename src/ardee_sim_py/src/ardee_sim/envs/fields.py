@@ -17,7 +17,7 @@ from ardee_common.errors import GeneratorError
 from ardee_models.lookup import crop_model, search_path
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import load_params, load_species
-from ardee_world.request import configure, yaml_values
+from ardee_world.request import configure, with_changes, yaml_values
 from ardee_world.trial import Trial, prepare, scenario_paths
 
 
@@ -90,7 +90,7 @@ class FieldSource:
             for one, other in combinations_with_replacement(ranges, 2):
                 for ends in product(ranges[one], ranges[other]):
                     drawn = {**middle, **dict(zip((one, other), ends))}
-                    configure({**plan, **plan_values(drawn)})
+                    configure(with_changes(plan, plan_values(drawn)))
         except GeneratorError as error:
             raise ArdeeError(f"randomise: {error}") from error
 

@@ -35,7 +35,9 @@ _TAIL = "</robot>\n"
 def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> Dict[str, Any]:
     """Returns the values of one plot: the rectangle around its rows, half a row spacing wider on each side."""
     chords = np.array([row.line_m[-1] - row.line_m[0] for row in rows])
-    chord = chords.sum(axis=0)
+    longest = chords[np.argmax((chords**2).sum(axis=1))]
+    against = chords @ longest < 0.0  # a row may be listed from its other end
+    chord = np.where(against[:, None], -chords, chords).sum(axis=0)
     if np.linalg.norm(chord) < 1e-9:
         chord = np.array([0.0, -1.0])
     forward = chord / np.linalg.norm(chord)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Writes a Layout's ground truth: truth.csv (plants), clutter.csv, truth.json (these, configuration, rows, gaps)."""
 
+import csv
 import dataclasses
+import io
 import json
 from typing import Dict, Iterator, List, Tuple
 
@@ -93,10 +95,12 @@ def clutter_columns(layout: Layout) -> Columns:
 
 
 def csv_text(columns: Columns) -> Iterator[str]:
-    """Lines of a CSV file."""
+    """Lines of a CSV file; texts with a comma stand in quotes."""
     yield ",".join(columns) + "\n"
     for values in zip(*columns.values()):
-        yield ",".join(map(str, values)) + "\n"
+        line = io.StringIO()
+        csv.writer(line, lineterminator="\n").writerow(values)
+        yield line.getvalue()
 
 
 def _rows(layout: Layout) -> List[dict]:
