@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 import yaml
 
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
+from ardee_models.terrain.ground import LevelGround
 from ardee_world import assemble_world
 from ardee_world.field_layout import to_world
+from ardee_world.moving import seat_plots
 from ardee_world.urdf_file import EMPTY, SEPARATOR
 
 BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", "0", "0")
@@ -296,3 +299,10 @@ def test_plots_lie_on_the_terrain(put_together, tmp_path):
     ground = terrain_model("custom_heightmap", [tmp_path / "out/models"])
     assert z == pytest.approx(float(ground.height_at(np.array([x]), np.array([y]))[0]), abs=1e-4)
     assert z != 0.0
+
+
+@pytest.mark.parametrize("place", ["", "<x>here</x>"])
+def test_a_plot_without_its_place_is_refused(place):
+    text = f"<robot><plot>{place}<y>2.0</y><z>0.0</z></plot></robot>"
+    with pytest.raises(GeneratorError, match="expected numbers x, y in each plot"):
+        seat_plots(text, LevelGround())

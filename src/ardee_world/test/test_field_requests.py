@@ -272,7 +272,7 @@ def test_a_length_as_a_change_wins_over_a_number_of_stalks():
     "words, message",
     [
         (("--noise-covariance-m2", "0.004096", "0.001792", "0.0007840000000000001"), "covariance"),
-        (("--old-origin",), "--old-origin"),
+        (("--origin-latitude", "5"), "did you mean '--gps-origin-deg'"),
     ],
 )
 def test_a_line_says_what_was_wrong(generate_field, tmp_path, words, message):

@@ -5,7 +5,7 @@ import dataclasses
 import json
 import re
 from pathlib import Path
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -39,22 +39,28 @@ def move_model(model: str, new: WorldPose) -> str:
     return OWN_POSE.sub(line, model, count=1)
 
 
+def _numbers(plot: str, tags: Sequence[str]) -> Dict[str, float]:
+    """Returns the numbers of a <plot>, each of which has to be there."""
+    found = {}
+    for tag in tags:
+        number = re.search(rf"<{tag}>\s*([^<\s]+)\s*</{tag}>", plot)
+        try:
+            found[tag] = float(number.group(1)) if number else float("nan")
+        except ValueError:
+            found[tag] = float("nan")
+    if not np.isfinite(list(found.values())).all():
+        raise GeneratorError(
+            f"plots: found {plot[:80]!r}, expected numbers {', '.join(tags)} in each plot"
+        )
+    return found
+
+
 def move_plots(plots: str, old: WorldPose, new: WorldPose) -> str:
     """Returns the text of plots.xacro with every plot where the field now has it."""
 
     def moved(match: "re.Match") -> str:
         text = match.group(0)
-        found = {}
-        for tag in ("x", "y", "rotation"):
-            number = re.search(rf"<{tag}>\s*([^<\s]+)\s*</{tag}>", text)
-            try:
-                found[tag] = float(number.group(1)) if number else float("nan")
-            except ValueError:
-                found[tag] = float("nan")
-        if not np.isfinite(list(found.values())).all():
-            raise GeneratorError(
-                f"plots: found {text[:80]!r}, expected numbers x, y and rotation in each plot"
-            )
+        found = _numbers(text, ("x", "y", "rotation"))
         found["x"], found["y"] = _moved(found["x"], found["y"], old, new)
         found["rotation"] = _wrapped(found["rotation"] + new[2] - old[2])
         for tag, value in found.items():
@@ -69,8 +75,8 @@ def seat_plots(plots: str, ground: Ground) -> str:
 
     def seated(match: "re.Match") -> str:
         text = match.group(0)
-        x, y = (float(re.search(rf"<{tag}>\s*([^<\s]+)", text).group(1)) for tag in "xy")  # type: ignore
-        z = float(ground.height_at(np.array([x]), np.array([y]))[0])
+        place = _numbers(text, ("x", "y"))
+        z = float(ground.height_at(np.array([place["x"]]), np.array([place["y"]]))[0])
         return re.sub(r"(<z>)[^<]*(</z>)", rf"\g<1>{z + 0.0:.4f}\g<2>", text)
 
     return _PLOT.sub(seated, plots)
